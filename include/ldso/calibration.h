@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "ldso/image.h"
+
+namespace ldso {
+
+enum class CameraModelKind { kPinhole, kFov, kRadTan, kKannalaBrandt };
+
+/// Intrinsics of the camera as it took the images, in absolute pixels (pixel centres at integers).
+/// `distortion`: FOV: omega; RadTan: k1 k2 p1 p2; Kannala-Brandt: k1 k2 k3 k4; pinhole: unused.
+struct CameraCalibration {
+  CameraModelKind model = CameraModelKind::kPinhole;
+  int width = 0;
+  int height = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  std::array<double, 4> distortion{};
+};
+
+/// How the images are resampled to a pinhole image.
+enum class RectificationMode {
+  kNone,      ///< Images are used as they are; only valid for pinhole cameras.
+  kCrop,      ///< Largest pinhole image all of whose pixels are inside the input.
+  kFull,      ///< Smallest pinhole image that shows every input pixel; the rest is invalid.
+  kExplicit,  ///< Given output intrinsics.
+};
+
+/// A pinhole camera without distortion, in absolute pixels (pixel centres at integers).
+struct PinholeIntrinsics {
+  int width = 0;
+  int height = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+};
+
+struct Rectification {
+  RectificationMode mode = RectificationMode::kNone;
+  int width = 0;   ///< Output size [px]; 0: as the input.
+  int height = 0;  ///< Output size [px]; 0: as the input.
+  PinholeIntrinsics explicit_intrinsics;  ///< Read for kExplicit only.
+};
+
+/// I = G(t * V(x) * B(x)): inverse response G^-1 and vignette V (TUM-mono benchmark, arXiv 1607.02555).
+struct PhotometricCalibration {
+  /// Irradiance (scaled to 0..255) of each 8-bit grey value; strictly monotone.
+  std::optional<std::array<float, 256>> inverse_response;
+  /// Attenuation in (0, 1], 1 at its maximum; size of the input images. Empty: none.
+  Image<float> vignette;
+};
+
+struct Calibration {
+  CameraCalibration camera;
+  Rectification rectification;
+  PhotometricCalibration photometric;
+  /// How it was read ("relative" or "absolute" intrinsics, which file), for messages.
+  std::string description;
+};
+
+}  // namespace ldso

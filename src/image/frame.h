@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ldso/calibration.h"
+#include "ldso/image.h"
+
+namespace ldso {
+
+/// A frame as a dataset yields it.
+struct RawFrame {
+  std::int64_t id = 0;                ///< Index in the sequence as it is played.
+  double timestamp = 0;               ///< [s]
+  std::optional<double> exposure_ms;  ///< Unknown in most data sets.
+  Image<float> grey;                  ///< Grey levels scaled to 0..255 (8-bit values exactly; 16-bit divided by 257).
+  std::string name;                   ///< File or archive entry it came from, for messages.
+};
+
+/// One pixel of a pyramid level: irradiance (0..255), its central differences [1 / px of this level]
+/// and 1 where it may be used, 0 where it is overexposed or outside of the camera's image.
+struct alignas(16) Texel {
+  float intensity = 0;
+  float dx = 0;
+  float dy = 0;
+  float valid = 0;
+};
+
+/// Level 0 has full resolution. Level l is half of level l-1 (floor), pixel centres kept:
+/// f_l = f_0 / 2^l, c_l = (c_0 + 0.5) / 2^l - 0.5.
+struct ImagePyramid {
+  std::vector<Image<Texel>> levels;
+};
+
+/// A frame ready for tracking: rectified, photometrically corrected.
+struct PreparedFrame {
+  std::int64_t id = 0;
+  double timestamp = 0;
+  double exposure_ms = 1.0;    ///< 1 where unknown or not to be used.
+  bool exposure_known = false;
+  ImagePyramid pyramid;
+};
+
+/// Number of usable pyramid levels for an image size, at most 6.
+int pyramid_level_count(int width, int height);
+
+/// Intrinsics of pyramid level `level`.
+PinholeIntrinsics level_intrinsics(const PinholeIntrinsics& full, int level);
+
+}  // namespace ldso

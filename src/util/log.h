@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace ldso {
+
+enum class LogLevel { kInfo, kWarning };
+
+/// Where the library says what a user should know; it prints nothing by itself. Called from any thread.
+using LogSink = std::function<void(LogLevel, const std::string&)>;
+
+inline void log_to(const LogSink& sink, LogLevel level, const std::string& message) {
+  if (sink) sink(level, message);
+}
+
+}  // namespace ldso

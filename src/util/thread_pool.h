@@ -1,0 +1,51 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace ldso {
+
+/// A fixed set of workers for data-parallel loops. Work is cut into chunks that depend on the amount of
+/// work only, never on the number of threads: reducing per-chunk results in chunk order gives the same
+/// bits for any number of threads.
+class ThreadPool {
+ public:
+  /// `threads` counts the calling thread: 1 runs everything in place.
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int threads() const { return static_cast<int>(workers_.size()) + 1; }
+
+  /// Calls `task(chunk)` for chunk = 0..chunks-1, in any order on any thread; returns when all are done.
+  /// The first exception thrown by a task is rethrown. Not reentrant.
+  void run(int chunks, const std::function<void(int)>& task);
+
+  /// Cuts [0, count) into chunks of `chunk_size` and calls `task(chunk, begin, end)` for each.
+  void for_chunks(int count, int chunk_size, const std::function<void(int, int, int)>& task);
+
+  static int chunk_count(int count, int chunk_size) { return (count + chunk_size - 1) / chunk_size; }
+
+ private:
+  void work(const std::stop_token& stop);
+  void run_available_chunks(std::unique_lock<std::mutex>& lock);
+
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::condition_variable done_;
+  const std::function<void(int)>* task_ = nullptr;
+  int next_chunk_ = 0;
+  int chunks_ = 0;
+  int running_ = 0;
+  std::exception_ptr error_;
+  std::vector<std::jthread> workers_;
+};
+
+}  // namespace ldso
