@@ -38,7 +38,7 @@ struct ImagePyramid {
 struct PreparedFrame {
   std::int64_t id = 0;
   double timestamp = 0;
-  double exposure_ms = 1.0;    ///< 1 where unknown or not to be used.
+  double exposure_ms = 1.0;  ///< 1 where unknown or not to be used.
   bool exposure_known = false;
   ImagePyramid pyramid;
 };

@@ -1,0 +1,55 @@
+#include "image/frame_preprocessor.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "image/masked_image.h"
+#include "image/pyramid.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
+}  // namespace
+
+FramePreprocessor::FramePreprocessor(const Calibration& calibration, const PhotometrySettings& settings)
+    : width_(calibration.camera.width),
+      height_(calibration.camera.height),
+      use_exposure_(settings.use_exposure),
+      photometric_(calibration.photometric, settings, width_, height_),
+      rectifier_(calibration.camera, calibration.rectification) {}
+
+PreparedFrame FramePreprocessor::process(const RawFrame& raw) const {
+  check_size(raw);
+  MaskedImage image(width_, height_);
+  photometric_.apply(raw.grey.view(), image.view());
+  if (!rectifier_.is_identity()) {
+    MaskedImage rectified(output_camera().width, output_camera().height);
+    rectifier_.apply(std::as_const(image).view(), rectified.view());
+    image = std::move(rectified);
+  }
+
+  PreparedFrame frame;
+  frame.id = raw.id;
+  frame.timestamp = raw.timestamp;
+  if (use_exposure_ && raw.exposure_ms && std::isfinite(*raw.exposure_ms) && *raw.exposure_ms > 0) {
+    frame.exposure_ms = *raw.exposure_ms;
+    frame.exposure_known = true;
+  }
+  frame.pyramid = build_pyramid(std::as_const(image).view());
+  return frame;
+}
+
+void FramePreprocessor::check_size(const RawFrame& raw) const {
+  if (raw.grey.width() == width_ && raw.grey.height() == height_) return;
+  const std::string name = raw.name.empty() ? "" : " (" + raw.name + ")";
+  throw Error("frame " + std::to_string(raw.id) + name,
+              "the image has " + size_text(raw.grey.width(), raw.grey.height()) +
+                  " pixels but the calibration is for " + size_text(width_, height_),
+              "calibrate for this image size, or correct the input size in the calibration file");
+}
+
+}  // namespace ldso

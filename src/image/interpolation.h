@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "image/frame.h"
+#include "ldso/image.h"
+
+namespace ldso {
+
+// Bilinear interpolation between pixel centres. Coordinates are in pixels.
+
+/// Whether the four pixels around (x, y) exist without leaving the image: 0 <= x < width - 1 and likewise y.
+/// `margin` asks for so many pixels more on each side. False for NaN.
+template <class T>
+bool is_interpolable(const ImageView<T>& image, float x, float y, float margin = 0.0f) {
+  return x >= margin && y >= margin && x < static_cast<float>(image.width - 1) - margin &&
+         y < static_cast<float>(image.height - 1) - margin;
+}
+
+namespace detail {
+
+/// Weights of the four pixels around a point.
+struct BilinearWeights {
+  float upper_left, upper_right, lower_left, lower_right;
+
+  BilinearWeights(float fraction_x, float fraction_y) {
+    lower_right = fraction_x * fraction_y;
+    lower_left = fraction_y - lower_right;
+    upper_right = fraction_x - lower_right;
+    upper_left = 1.0f - fraction_x - lower_left;
+  }
+};
+
+inline float blend(const BilinearWeights& w, const float* upper, const float* lower) {
+  return w.upper_left * upper[0] + w.upper_right * upper[1] + w.lower_left * lower[0] + w.lower_right * lower[1];
+}
+
+inline Texel blend(const BilinearWeights& w, const Texel* upper, const Texel* lower) {
+  const auto mix = [&](float Texel::*part) {
+    return w.upper_left * upper[0].*part + w.upper_right * upper[1].*part + w.lower_left * lower[0].*part +
+           w.lower_right * lower[1].*part;
+  };
+  Texel result{mix(&Texel::intensity), mix(&Texel::dx), mix(&Texel::dy), 0.0f};
+  const bool valid = std::min(std::min(upper[0].valid, upper[1].valid), std::min(lower[0].valid, lower[1].valid)) > 0;
+  result.valid = valid ? 1.0f : 0.0f;
+  return result;
+}
+
+template <class T>
+T bilinear(const ImageView<const T>& image, int left, int top, float x, float y) {
+  const BilinearWeights weights(x - static_cast<float>(left), y - static_cast<float>(top));
+  const T* upper = image.row(top) + left;
+  return blend(weights, upper, upper + image.stride);
+}
+
+}  // namespace detail
+
+/// Interpolates where `is_interpolable`; elsewhere the behaviour is undefined (this is the inner loop).
+inline float bilinear(const ImageView<const float>& image, float x, float y) {
+  return detail::bilinear(image, static_cast<int>(x), static_cast<int>(y), x, y);
+}
+
+/// The same for texels: interpolates intensity and gradient; valid is 1 if all four are, else 0.
+inline Texel bilinear(const ImageView<const Texel>& image, float x, float y) {
+  return detail::bilinear(image, static_cast<int>(x), static_cast<int>(y), x, y);
+}
+
+/// Safe anywhere: nothing outside of the pixel centres; the last column and row are inside.
+/// Images smaller than 2 x 2 have no inside.
+template <class T>
+std::optional<T> bilinear_if_inside(const ImageView<const T>& image, float x, float y) {
+  if (image.width < 2 || image.height < 2) return std::nullopt;
+  const bool inside =
+      x >= 0 && y >= 0 && x <= static_cast<float>(image.width - 1) && y <= static_cast<float>(image.height - 1);
+  if (!inside) return std::nullopt;
+  const int left = std::min(static_cast<int>(x), image.width - 2);
+  const int top = std::min(static_cast<int>(y), image.height - 2);
+  return detail::bilinear(image, left, top, x, y);
+}
+
+}  // namespace ldso
