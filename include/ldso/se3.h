@@ -40,7 +40,8 @@ class SE3 {
   Tangent log() const {
     const Vector3 omega = R_.log();
     Tangent x;
-    x << SO3<Scalar>::left_jacobian_inverse(omega) * t_, omega;
+    x.template head<3>() = SO3<Scalar>::left_jacobian_inverse(omega) * t_;
+    x.template tail<3>() = omega;
     return x;
   }
 
