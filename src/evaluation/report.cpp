@@ -1,0 +1,138 @@
+#include "evaluation/report.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace ldso {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof(text), pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string statistics_row(const char* name, const Statistics& s) {
+  return format("%-22s %11.6f %11.6f %11.6f %11.6f %11.6f %11.6f\n", name, s.rmse, s.mean, s.median, s.stddev, s.min,
+                s.max);
+}
+
+std::string tum_mono_rows(const TumMonoError& e) {
+  return format("%-22s %11.6f m   (over all poses; start %zu, end %zu pairs)\n", "TUM-mono e_align", e.e_align,
+                e.start_pairs, e.end_pairs) +
+         format("%-22s %11.6f m\n", "TUM-mono e_rmse", e.e_rmse) +
+         format("%-22s %11.6f m\n", "TUM-mono e_t", e.e_translation) +
+         format("%-22s %11.6f deg\n", "TUM-mono e_r", e.e_rotation_deg) +
+         format("%-22s %11.6f\n", "TUM-mono e_s", e.e_scale) +
+         format("%-22s %11.6f m\n", "TUM-mono start rmse", e.start_rmse) +
+         format("%-22s %11.6f m\n", "TUM-mono end rmse", e.end_rmse);
+}
+
+std::string drift_rows(const EvaluationResult& result) {
+  std::string rows;
+  if (result.scale_drift) {
+    rows += format("%-22s %11.6f     (last third / first third of the path: %.6f)\n", "scale drift",
+                   result.scale_drift->drift, result.scale_drift->ratio);
+  }
+  if (result.kitti_drift) {
+    rows += format("%-22s %11.6f %%   (%zu paths of 100..800 m)\n", "KITTI t_rel",
+                   result.kitti_drift->translation_percent, result.kitti_drift->segments);
+    rows += format("%-22s %11.6f deg/m\n", "KITTI r_rel", result.kitti_drift->rotation_deg_per_m);
+  }
+  return rows;
+}
+
+std::string relative_rows(const EvaluationResult& result) {
+  if (!result.relative_translation) return "";
+  return statistics_row("RPE translation [m]", *result.relative_translation) +
+         statistics_row("RPE rotation [deg]", *result.relative_rotation_deg);
+}
+
+Json json_of(const Statistics& s) {
+  return {{"count", s.count}, {"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median},
+          {"std", s.stddev},  {"min", s.min},   {"max", s.max}};
+}
+
+Json json_of(const Sim3d& S) {
+  const Eigen::Quaterniond& q = S.rotation().quaternion();
+  const Eigen::Vector3d& t = S.translation();
+  return {
+      {"scale", S.scale()}, {"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}}, {"translation", {t.x(), t.y(), t.z()}}};
+}
+
+Json json_of(const ScaleDrift& s) {
+  return {{"drift", s.drift}, {"ratio", s.ratio}, {"first_scale", s.first_scale}, {"last_scale", s.last_scale}};
+}
+
+Json json_of(const KittiDrift& k) {
+  Json lengths = Json::array();
+  for (std::size_t i = 0; i < kKittiLengths.size(); ++i) {
+    if (!std::isfinite(k.translation_percent_of_length[i])) continue;
+    lengths.push_back({{"length_m", kKittiLengths[i]},
+                       {"t_rel_percent", k.translation_percent_of_length[i]},
+                       {"r_rel_deg_per_m", k.rotation_deg_per_m_of_length[i]}});
+  }
+  return {{"t_rel_percent", k.translation_percent},
+          {"r_rel_deg_per_m", k.rotation_deg_per_m},
+          {"segments", k.segments},
+          {"by_length", lengths}};
+}
+
+Json json_of(const TumMonoError& e) {
+  return {
+      {"e_align", e.e_align},    {"e_rmse", e.e_rmse},         {"e_t", e.e_translation}, {"e_r_deg", e.e_rotation_deg},
+      {"e_s", e.e_scale},        {"start_rmse", e.start_rmse}, {"end_rmse", e.end_rmse}, {"start_pairs", e.start_pairs},
+      {"end_pairs", e.end_pairs}};
+}
+
+template <class T>
+Json json_or_null(const std::optional<T>& value) {
+  return value ? json_of(*value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::string result_table(const EvaluationResult& result) {
+  std::string table;
+  table += format("%-22s %11zu     (of %zu estimated and %zu true poses)\n", "pairs", result.pairs.size(),
+                  result.estimate_poses, result.truth_poses);
+  table += format("%-22s %11.6f m\n", "path", result.path_length);
+  table += format("%-22s %11s     (scale %.6f)\n", "alignment", to_string(result.alignment).c_str(),
+                  result.S_truth_estimate.scale());
+  table += format("%-22s %11s %11s %11s %11s %11s %11s\n", "", "rmse", "mean", "median", "std", "min", "max");
+  table += statistics_row("ATE [m]", result.absolute);
+  table += relative_rows(result);
+  // Where the path is known in pieces only, its length means nothing.
+  if (!result.tum_mono) table += format("%-22s %11.6f %%\n", "ATE of path", result.ate_percent_of_path());
+  table += drift_rows(result);
+  if (result.tum_mono) table += tum_mono_rows(*result.tum_mono);
+  return table;
+}
+
+std::string result_json(const EvaluationResult& result) {
+  const Json json = {{"pairs", result.pairs.size()},
+                     {"estimate_poses", result.estimate_poses},
+                     {"truth_poses", result.truth_poses},
+                     {"path_length_m", result.path_length},
+                     {"alignment", to_string(result.alignment)},
+                     {"S_truth_estimate", json_of(result.S_truth_estimate)},
+                     {"ate_m", json_of(result.absolute)},
+                     {"ate_percent_of_path", result.ate_percent_of_path()},
+                     {"rpe_delta", result.relative_options.delta},
+                     {"rpe_all_pairs", result.relative_options.all_pairs},
+                     {"rpe_translation_m", json_or_null(result.relative_translation)},
+                     {"rpe_rotation_deg", json_or_null(result.relative_rotation_deg)},
+                     {"scale_drift", json_or_null(result.scale_drift)},
+                     {"kitti_drift", json_or_null(result.kitti_drift)},
+                     {"tum_mono", json_or_null(result.tum_mono)}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace ldso

@@ -1,0 +1,44 @@
+#include "evaluation/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+double median_of_sorted(const std::vector<double>& values) {
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace
+
+Statistics summarize(std::vector<double> values) {
+  if (values.empty()) throw Error("statistics", "there are no errors to sum up", "");
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(values.begin(), values.end(), finite)) {
+    throw Error("statistics", "an error is not finite", "check both trajectories for NaN or infinite poses");
+  }
+  Statistics result;
+  result.count = values.size();
+  const double n = static_cast<double>(values.size());
+  double sum = 0, sum_of_squares = 0;
+  for (const double value : values) {
+    sum += value;
+    sum_of_squares += value * value;
+  }
+  result.mean = sum / n;
+  result.rmse = std::sqrt(sum_of_squares / n);
+  double squared_deviations = 0;
+  for (const double value : values) squared_deviations += (value - result.mean) * (value - result.mean);
+  result.stddev = std::sqrt(squared_deviations / n);
+  std::sort(values.begin(), values.end());
+  result.median = median_of_sorted(values);
+  result.min = values.front();
+  result.max = values.back();
+  return result;
+}
+
+}  // namespace ldso

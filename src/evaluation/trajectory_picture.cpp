@@ -1,0 +1,301 @@
+#include "evaluation/trajectory_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "evaluation/svg_chart.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+// Okabe and Ito's palette: distinct for all common kinds of colour blindness; dashes and widths differ as well.
+constexpr const char* kEstimateColour = "#0072B2";
+constexpr const char* kTruthColour = "#E69F00";
+
+constexpr double kWidth = 900;
+constexpr double kLeft = 90, kRight = 25, kTop = 84;
+constexpr double kMapHeight = 620, kPanelHeight = 150, kAxisRoom = 55, kPanelGap = 15;
+constexpr double kGapFactor = 8;      ///< A line is broken where the step of time exceeds this many usual ones.
+constexpr double kTruthMargin = 0.1;  ///< Ground truth shown before and after the estimate, relative to its duration.
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// A path in order of time, cut where poses are missing.
+using Pieces = std::vector<Points>;
+
+double median_step(const Trajectory& trajectory) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    steps.push_back(std::abs(trajectory[i].timestamp - trajectory[i - 1].timestamp));
+  }
+  if (steps.empty()) return 0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+Trajectory finite_in_time_order(const Trajectory& trajectory) {
+  Trajectory sorted;
+  std::copy_if(trajectory.begin(), trajectory.end(), std::back_inserter(sorted), has_finite_pose);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
+  return sorted;
+}
+
+Pieces pieces_of(const Trajectory& trajectory, const Sim3d& S) {
+  const Trajectory sorted = finite_in_time_order(trajectory);
+  const double longest_step = kGapFactor * median_step(sorted);
+  Pieces pieces;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const bool gap = i > 0 && longest_step > 0 && sorted[i].timestamp - sorted[i - 1].timestamp > longest_step;
+    if (i == 0 || gap) pieces.emplace_back();
+    pieces.back().push_back(S * sorted[i].T_world_camera.translation());
+  }
+  return pieces;
+}
+
+/// The part of the truth that the estimate covers, and a little around it where tracking may have been missing: an
+/// estimate of an excerpt is not to drown in the whole.
+Trajectory truth_near(const Trajectory& truth, const Trajectory& estimate) {
+  const auto [first, last] =
+      std::minmax_element(estimate.begin(), estimate.end(),
+                          [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
+  const double margin = kTruthMargin * (last->timestamp - first->timestamp);
+  Trajectory near;
+  std::copy_if(truth.begin(), truth.end(), std::back_inserter(near), [&](const StampedPose& pose) {
+    return pose.timestamp >= first->timestamp - margin && pose.timestamp <= last->timestamp + margin;
+  });
+  return near;
+}
+
+/// The coordinates drawn to the right and upwards: those with the largest motion, in alphabetical order.
+struct Axes {
+  int right = 0, up = 1;
+};
+
+struct Bounds {
+  Eigen::Array3d min = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d max = -min;
+
+  void extend(const Pieces& pieces) {
+    for (const Points& piece : pieces) {
+      for (const Eigen::Vector3d& p : piece) {
+        min = min.min(p.array());
+        max = max.max(p.array());
+      }
+    }
+  }
+};
+
+Axes main_axes(const Bounds& bounds) {
+  const Eigen::Array3d extent = bounds.max - bounds.min;
+  std::array<int, 3> order = {0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return extent[a] > extent[b]; });
+  return {std::min(order[0], order[1]), std::max(order[0], order[1])};
+}
+
+Range padded(double min, double max) {
+  const double pad = max > min ? 0.05 * (max - min) : 0.5;
+  return {min - pad, max + pad};
+}
+
+std::string axis_label(int axis, const std::string& unit) {
+  return std::string(1, static_cast<char>('x' + axis)) + " [" + unit + "]";
+}
+
+Polyline project(const Points& points, const Axes& axes) {
+  Polyline line;
+  for (const Eigen::Vector3d& p : points) line.emplace_back(p[axes.right], p[axes.up]);
+  return line;
+}
+
+struct Map {
+  Pieces truth, estimate;
+  Eigen::Vector3d start, end;  ///< Of the estimate, in the order in which it was made.
+  std::string unit;
+};
+
+std::string draw_map(const Map& map, const SvgBox& box) {
+  Bounds truth_bounds, bounds;
+  truth_bounds.extend(map.truth.empty() ? map.estimate : map.truth);
+  bounds.extend(map.truth);
+  bounds.extend(map.estimate);
+  const Axes axes = main_axes(truth_bounds);
+  Range x = padded(bounds.min[axes.right], bounds.max[axes.right]);
+  Range y = padded(bounds.min[axes.up], bounds.max[axes.up]);
+  SvgChart::make_equal_scale(box, x, y);
+  SvgChart chart(box, x, y);
+  chart.add_axes(axis_label(axes.right, map.unit), axis_label(axes.up, map.unit));
+  for (const Points& piece : map.truth) chart.add_line(project(piece, axes), {kTruthColour, 4.0, 1.0, ""});
+  for (const Points& piece : map.estimate) chart.add_line(project(piece, axes), {kEstimateColour, 1.6, 1.0, ""});
+  chart.add_circle({map.start[axes.right], map.start[axes.up]}, kEstimateColour);
+  chart.add_square({map.end[axes.right], map.end[axes.up]}, kEstimateColour);
+  return chart.svg();
+}
+
+/// Errors over time since the first pose (or, without times, over the index), cut where poses are missing.
+std::vector<Polyline> error_lines(const Trajectory& estimate, const EvaluationResult& result, bool has_times) {
+  Polyline samples;
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    samples.emplace_back(estimate[result.pairs[i].estimate].timestamp, result.absolute_errors[i]);
+  }
+  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  const double start = has_times ? samples.front().x() : 0.0;
+  const double longest_step = kGapFactor * median_step(estimate);
+  std::vector<Polyline> lines;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const bool gap = i > 0 && longest_step > 0 && samples[i].x() - samples[i - 1].x() > longest_step;
+    if (i == 0 || gap) lines.emplace_back();
+    lines.back().emplace_back(samples[i].x() - start, samples[i].y());
+  }
+  return lines;
+}
+
+std::string draw_error_panel(const Trajectory& estimate, const EvaluationResult& result, const SvgBox& box,
+                             bool has_times) {
+  const std::vector<Polyline> lines = error_lines(estimate, result, has_times);
+  Range x{lines.front().front().x(), lines.back().back().x()};
+  if (!(x.length() > 0)) x.max = x.min + 1;
+  const double top = result.absolute.max > 0 ? 1.05 * result.absolute.max : 1.0;
+  SvgChart chart(box, x, {0, top});
+  chart.add_axes(has_times ? "time since the first pose [s]" : "pose", "error [m]");
+  for (const Polyline& line : lines) chart.add_line(line, {kEstimateColour, 1.3, 1.0, ""});
+  return chart.svg();
+}
+
+std::string legend_line(double x, double y, const char* colour, double width) {
+  char text[256];
+  std::snprintf(text, sizeof(text),
+                "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%.1f\"/>\n", x, y,
+                x + 30, y, colour, width);
+  return text;
+}
+
+/// One row of labelled samples above the map.
+std::string draw_legend(const PictureOptions& options, bool with_truth) {
+  constexpr double kY = 64, kLetter = 7.6;
+  double x = kLeft;
+  std::string svg;
+  const auto add_text = [&](const std::string& text) {
+    svg += svg_text(x, kY + 5, text, 14);
+    x += kLetter * static_cast<double>(text.size()) + 24;
+  };
+  const auto add_line = [&](const std::string& text, const char* colour, double width) {
+    svg += legend_line(x, kY, colour, width);
+    x += 37;
+    add_text(text);
+  };
+  if (with_truth) add_line(options.truth_label, kTruthColour, 4.0);
+  add_line(options.estimate_label, kEstimateColour, 1.6);
+  SvgChart marks({0, 0, 1, 1}, {0, 1}, {0, 1});
+  marks.add_circle({x + 6, 1 - kY}, kEstimateColour);
+  const double start_x = x + 20;
+  x = start_x;
+  add_text("start");
+  marks.add_square({x + 6, 1 - kY}, kEstimateColour);
+  x += 20;
+  add_text("end");
+  return svg + marks.svg();
+}
+
+std::string picture_frame(double height, const std::string& title, const std::string& subtitle,
+                          const std::string& content) {
+  char head[512];
+  std::snprintf(head, sizeof(head),
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
+                "font-family=\"Helvetica, Arial, DejaVu Sans, sans-serif\" fill=\"#222222\">\n"
+                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+                kWidth, height, kWidth, height);
+  return head + svg_text(kLeft, 28, title, 18, "start", "font-weight=\"bold\"") +
+         svg_text(kLeft, 48, subtitle, 13, "start", "fill=\"#555555\"") + content + "</svg>\n";
+}
+
+std::string error_title(const EvaluationResult& result, const std::string& name) {
+  char text[128];
+  std::snprintf(text, sizeof(text), "ATE %.4g m rmse", result.absolute.rmse);
+  return name.empty() ? text : name + ": " + text;
+}
+
+std::string alignment_phrase(AlignmentMode mode) {
+  switch (mode) {
+    case AlignmentMode::kSe3:
+      return "aligned by rotation and translation";
+    case AlignmentMode::kSim3:
+      return "aligned by rotation, translation and scale";
+    case AlignmentMode::kScale:
+      return "aligned by scale alone";
+    case AlignmentMode::kNone:
+      break;
+  }
+  return "not aligned";
+}
+
+std::string error_subtitle(const EvaluationResult& result) {
+  char text[256];
+  std::snprintf(text, sizeof(text), "median %.4g m, max %.4g m; %zu poses, %s", result.absolute.median,
+                result.absolute.max, result.pairs.size(), alignment_phrase(result.alignment).c_str());
+  std::string subtitle = text;
+  if (!result.tum_mono) {
+    std::snprintf(text, sizeof(text), "; path %.4g m", result.path_length);
+    subtitle += text;
+  }
+  return subtitle;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Error(path.string(), "cannot write the picture", "check that the folder exists and is writable");
+}
+
+}  // namespace
+
+std::string trajectory_picture(const Trajectory& estimate, const Trajectory& truth, const EvaluationResult& result,
+                               const PictureOptions& options) {
+  const Sim3d& S = result.S_truth_estimate;
+  const Map map{pieces_of(truth_near(truth, estimate), Sim3d()), pieces_of(estimate, S),
+                S * estimate.front().T_world_camera.translation(), S * estimate.back().T_world_camera.translation(),
+                "m"};
+  const double width = kWidth - kLeft - kRight;
+  std::string content = draw_legend(options, true) + draw_map(map, {kLeft, kTop, width, kMapHeight});
+  double height = kTop + kMapHeight + kAxisRoom;
+  if (options.error_panel) {
+    const SvgBox box{kLeft, height + kPanelGap, width, kPanelHeight};
+    content += draw_error_panel(estimate, result, box, options.has_times);
+    height += kPanelGap + kPanelHeight + kAxisRoom;
+  }
+  return picture_frame(height, error_title(result, options.title), error_subtitle(result), content);
+}
+
+std::string trajectory_picture(const Trajectory& estimate, const PictureOptions& options) {
+  if (estimate.empty()) throw Error("trajectory picture", "there are no poses to draw", "");
+  const Map map{{},
+                pieces_of(estimate, Sim3d()),
+                estimate.front().T_world_camera.translation(),
+                estimate.back().T_world_camera.translation(),
+                "map units"};
+  const std::string content =
+      draw_legend(options, false) + draw_map(map, {kLeft, kTop, kWidth - kLeft - kRight, kMapHeight});
+  const std::string subtitle = std::to_string(estimate.size()) + " poses; scale and orientation are free";
+  return picture_frame(kTop + kMapHeight + kAxisRoom, options.title.empty() ? "Camera trajectory" : options.title,
+                       subtitle, content);
+}
+
+void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,
+                              const EvaluationResult& result, const PictureOptions& options) {
+  write_text(path, trajectory_picture(estimate, truth, result, options));
+}
+
+void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate,
+                              const PictureOptions& options) {
+  write_text(path, trajectory_picture(estimate, options));
+}
+
+}  // namespace ldso
