@@ -105,7 +105,7 @@ TEST(KnownValues, TumMonoErrors) {
     EXPECT_EQ(result.estimate_poses, known.poses);
     ASSERT_TRUE(result.tum_mono.has_value());
     const TumMonoError& e = *result.tum_mono;
-    constexpr double kTolerance = 2e-6;
+    constexpr double kTolerance = 6e-7;
     EXPECT_NEAR(e.e_rmse, known.e_rmse, kTolerance);
     EXPECT_NEAR(e.e_align, known.e_align, kTolerance);
     EXPECT_NEAR(e.e_rotation_deg, known.e_r, kTolerance);
