@@ -86,7 +86,8 @@ void irradiance_of_image(benchmark::State& state) {
   const Image<float> image = textured_grey(640, 480);
   const Image<float> gain(640, 480, 1.25f);
   const Calibration calibration = lens(640, 480, false, true);
-  const IrradianceTables tables{calibration.photometric.inverse_response->data(), gain.view(), 253.0f};
+  const ResponseTable response(*calibration.photometric.inverse_response);
+  const IrradianceTables tables{&response, gain.view(), 253.0f};
   MaskedImage masked(640, 480);
   for (auto _ : state) {
     kKernel(image.view(), tables, masked.view());

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <optional>
 
 #include "image/frame.h"
@@ -36,14 +38,17 @@ inline float blend(const BilinearWeights& w, const float* upper, const float* lo
   return w.upper_left * upper[0] + w.upper_right * upper[1] + w.lower_left * lower[0] + w.lower_right * lower[1];
 }
 
+// As arrays of four: compilers make one vector instruction of each step.
 inline Texel blend(const BilinearWeights& w, const Texel* upper, const Texel* lower) {
-  const auto mix = [&](float Texel::*part) {
-    return w.upper_left * upper[0].*part + w.upper_right * upper[1].*part + w.lower_left * lower[0].*part +
-           w.lower_right * lower[1].*part;
-  };
-  Texel result{mix(&Texel::intensity), mix(&Texel::dx), mix(&Texel::dy), 0.0f};
-  const bool valid = std::min(std::min(upper[0].valid, upper[1].valid), std::min(lower[0].valid, lower[1].valid)) > 0;
-  result.valid = valid ? 1.0f : 0.0f;
+  using Four = std::array<float, 4>;
+  const Four a = std::bit_cast<Four>(upper[0]), b = std::bit_cast<Four>(upper[1]);
+  const Four c = std::bit_cast<Four>(lower[0]), d = std::bit_cast<Four>(lower[1]);
+  Four sum;
+  for (int i = 0; i < 4; ++i) {
+    sum[i] = (w.upper_left * a[i] + w.upper_right * b[i]) + (w.lower_left * c[i] + w.lower_right * d[i]);
+  }
+  Texel result = std::bit_cast<Texel>(sum);
+  result.valid = upper[0].valid * upper[1].valid * lower[0].valid * lower[1].valid;
   return result;
 }
 

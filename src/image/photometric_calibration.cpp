@@ -1,9 +1,9 @@
 #include "image/photometric_calibration.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
-#include "image/irradiance_kernels.h"
 #include "ldso/error.h"
 
 namespace ldso {
@@ -57,7 +57,7 @@ PhotometricCorrection::PhotometricCorrection(const PhotometricCalibration& calib
     : overexposed_(static_cast<float>(settings.overexposed)) {
   if (settings.use_response && calibration.inverse_response) {
     check_inverse_response(*calibration.inverse_response);
-    inverse_response_ = calibration.inverse_response;
+    inverse_response_.emplace(*calibration.inverse_response);
   }
   if (settings.use_vignette && !calibration.vignette.empty()) {
     check_vignette_size(calibration.vignette, width, height);
@@ -67,7 +67,7 @@ PhotometricCorrection::PhotometricCorrection(const PhotometricCalibration& calib
 
 void PhotometricCorrection::apply(ImageView<const float> grey, ImageView<float> masked) const {
   IrradianceTables tables;
-  tables.inverse_response = inverse_response_ ? inverse_response_->data() : nullptr;
+  tables.inverse_response = inverse_response_ ? &*inverse_response_ : nullptr;
   tables.gain = gain_.view();
   tables.overexposed = overexposed_;
   to_irradiance(grey, tables, masked);

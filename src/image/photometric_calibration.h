@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
+#include "image/irradiance_kernels.h"
 #include "ldso/calibration.h"
 #include "ldso/image.h"
 #include "ldso/settings.h"
@@ -27,7 +27,7 @@ class PhotometricCorrection {
   void apply(ImageView<const float> grey, ImageView<float> masked) const;
 
  private:
-  std::optional<std::array<float, 256>> inverse_response_;
+  std::optional<ResponseTable> inverse_response_;
   Image<float> gain_;
   float overexposed_;
 };
