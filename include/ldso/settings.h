@@ -41,8 +41,8 @@ struct PhotometrySettings {
   bool use_exposure = true;        ///< Use the exposure times if they are known.
   double overexposed = 253.0;      ///< Raw grey levels from here on carry no information.
   /// Prior precision on log brightness factor a and offset b if the photometric calibration is known; 0 if not [D 4].
-  double prior_a = 1e12;
-  double prior_b = 1e8;
+  double prior_a = 1e10;
+  double prior_b = 1e2;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -55,17 +55,137 @@ struct PhotometrySettings {
   }
 };
 
+/// Sliding-window photometric bundle adjustment and marginalization [D 2.3].
+struct WindowSettings {
+  int iterations = 6;                   ///< At most, for each keyframe.
+  double marginalization_weight = 0.25; ///< Marginalized residuals are correlated: their information is scaled.
+  double focal_prior = 2e6;             ///< Precision of the given focal lengths [1 / px^2, in units of squared grey levels].
+  double center_prior = 2e6;            ///< Precision of the given principal point, likewise.
+  double idepth_prior = 2500;           ///< Precision of the initializer's inverse depths (their mean is 1).
+  double least_idepth_hessian = 50;     ///< Weaker points are dropped, not marginalized.
+  int active_points = 2000;             ///< Wanted number of points in the window.
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("iterations", s.iterations);
+    visit("marginalization_weight", s.marginalization_weight);
+    visit("focal_prior", s.focal_prior);
+    visit("center_prior", s.center_prior);
+    visit("idepth_prior", s.idepth_prior);
+    visit("least_idepth_hessian", s.least_idepth_hessian);
+    visit("active_points", s.active_points);
+  }
+};
+
+/// When a frame becomes a keyframe and which keyframes leave the window [D 3.1].
+struct KeyframeSettings {
+  int window_min = 5;                ///< Keyframes that stay even if little of them is visible.
+  int window_max = 7;                ///< Keyframes in the window.
+  double translation_weight = 0.04;  ///< Of the flow without rotation.
+  double rotation_weight = 0.02;     ///< Of the flow with rotation.
+  double brightness_weight = 2.0;    ///< Of the absolute log brightness factor.
+  double density = 1.0;              ///< Scales the weights: larger makes more keyframes.
+  double least_visible = 0.05;       ///< Share of its points below which a keyframe leaves.
+  double brightness_limit = 0.7;     ///< Log brightness factor to the newest beyond which a keyframe leaves.
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("window_min", s.window_min);
+    visit("window_max", s.window_max);
+    visit("translation_weight", s.translation_weight);
+    visit("rotation_weight", s.rotation_weight);
+    visit("brightness_weight", s.brightness_weight);
+    visit("density", s.density);
+    visit("least_visible", s.least_visible);
+    visit("brightness_limit", s.brightness_limit);
+  }
+};
+
+/// Two-frame alignment of each new frame [D 3.1].
+struct TrackingSettings {
+  double cutoff = 20;             ///< Residuals beyond this are saturated [grey levels]; doubles while most are.
+  double good_ratio = 1.5;        ///< A residual within this factor of the last frame's is accepted at once.
+  double lost_rmse = 30;          ///< Worse alignments are no alignments [grey levels].
+  double least_in_view = 0.05;    ///< Share of the map's points that must fall into the image.
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("cutoff", s.cutoff);
+    visit("good_ratio", s.good_ratio);
+    visit("lost_rmse", s.lost_rmse);
+    visit("least_in_view", s.least_in_view);
+  }
+};
+
+/// Epipolar search of immature points and their activation [D 3.2].
+struct TracingSettings {
+  double search_length = 0.027;      ///< Longest search, as a share of width + height.
+  double least_quality = 3.0;        ///< Second-best over best energy a point needs to be activated.
+  double largest_interval = 8.0;     ///< Longest last search interval a point may have to be activated [px].
+  double least_idepth_hessian = 100; ///< A point whose depth is determined more weakly is not activated.
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("search_length", s.search_length);
+    visit("least_quality", s.least_quality);
+    visit("largest_interval", s.largest_interval);
+    visit("least_idepth_hessian", s.least_idepth_hessian);
+  }
+};
+
+/// Start of the map from two views. Thresholds are on what is measured: displacements in pixels of level 0.
+struct InitializerSettings {
+  int points = 1500;                  ///< Points of the first frame that are followed.
+  double min_parallax = 3.0;          ///< Median displacement by the translation alone [px].
+  double max_cost_ratio = 0.5;        ///< Misfit with translation over misfit of a camera that only turns.
+  double max_direction_stddev = 3.0;  ///< Of the direction of motion [degrees].
+  double min_inliers = 0.6;           ///< Share of the displacements that one motion has to explain.
+  double min_runner_up = 1.1;         ///< Least misfit of the second-best motion over that of the best, and
+  int max_ambiguous = 10;             ///< frames after which the best is taken all the same.
+  double max_residual = 14.0;         ///< RMS of a good point's residuals [grey levels].
+  double max_idepth_stddev = 0.3;     ///< Of a good point, relative to its inverse depth.
+  double min_good = 0.4;              ///< Share of good points.
+  double min_tracked = 0.35;          ///< Share of points still found; below it, a new first frame is taken.
+  int max_frames = 60;                ///< Frames after which a new first frame is taken if anything moves.
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("points", s.points);
+    visit("min_parallax", s.min_parallax);
+    visit("max_cost_ratio", s.max_cost_ratio);
+    visit("max_direction_stddev", s.max_direction_stddev);
+    visit("min_inliers", s.min_inliers);
+    visit("min_runner_up", s.min_runner_up);
+    visit("max_ambiguous", s.max_ambiguous);
+    visit("max_residual", s.max_residual);
+    visit("max_idepth_stddev", s.max_idepth_stddev);
+    visit("min_good", s.min_good);
+    visit("min_tracked", s.min_tracked);
+    visit("max_frames", s.max_frames);
+  }
+};
+
 /// Everything that steers the system. Defaults are the published ones unless measured better.
 struct Settings {
   int threads = 2;  ///< Worker threads; results do not depend on it.
   SelectionSettings selection;
   PhotometrySettings photometry;
+  InitializerSettings initializer;
+  TrackingSettings tracking;
+  TracingSettings tracing;
+  KeyframeSettings keyframes;
+  WindowSettings window;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
     visit("threads", s.threads);
     visit("selection", s.selection);
     visit("photometry", s.photometry);
+    visit("initializer", s.initializer);
+    visit("tracking", s.tracking);
+    visit("tracing", s.tracing);
+    visit("keyframes", s.keyframes);
+    visit("window", s.window);
   }
 
   /// Throws ldso::Error naming the field, its value and the allowed range.

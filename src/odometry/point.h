@@ -44,7 +44,6 @@ enum class ResidualState : std::uint8_t { kInlier, kOutlier, kOutOfView };
 /// One active point seen in one other keyframe.
 struct PointResidual {
   Keyframe* target = nullptr;
-  ResidualState state = ResidualState::kInlier;
   /// Linearization at the accepted state and at the state being tried; Window::front tells which is which.
   std::array<PatternSums, 2> sums{};
   std::array<ResidualState, 2> states{ResidualState::kInlier, ResidualState::kInlier};
@@ -53,12 +52,10 @@ struct PointResidual {
 struct ActivePoint {
   float u = 0, v = 0;
   float idepth = 0;
-  float idepth_backup = 0;
+  float idepth_backup = 0;         ///< Before the step that is being tried.
   float idepth_step = 0;
-  float idepth_lin = 0;            ///< Where the point's Jacobians are taken.
-  float idepth_prior = 0;          ///< Precision of a prior around idepth_lin; 0: none.
+  float idepth_damping = 0;        ///< Added to the Hessian: a point that is new from the initializer moves slowly.
   float idepth_hessian = 0;        ///< Of the last accepted normal equations.
-  float max_baseline = 0;          ///< Largest parallax angle it was seen under, over its inverse depth.
   float density_scale = 1;
   int good_residuals = 0;          ///< Linearizations in which a residual was an inlier, ever.
   bool is_corner = false;
@@ -67,7 +64,6 @@ struct ActivePoint {
   std::vector<PointResidual> residuals;
   /// States of the residuals in the two newest keyframes (newest first).
   std::array<ResidualState, 2> newest_states{ResidualState::kInlier, ResidualState::kInlier};
-  std::array<std::int64_t, 2> newest_ids{-1, -1};
 };
 
 }  // namespace ldso

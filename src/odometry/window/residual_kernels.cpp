@@ -8,13 +8,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "odometry/texel_sampling-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace ldso {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes8 = hn::CappedTag<float, kPatternSize>;
-using Quad = hn::FixedTag<float, 4>;
 
 alignas(32) constexpr float kOffsetX[kPatternSize] = {0, -1, 1, -2, 0, 2, -1, 0};
 alignas(32) constexpr float kOffsetY[kPatternSize] = {-2, -1, -1, 0, 0, 0, 1, 2};
@@ -45,26 +46,6 @@ HWY_INLINE bool warp_pattern(const PatternJob& job, float* HWY_RESTRICT xs, floa
     inside = inside && hn::AllTrue(d, ok);
   }
   return inside;
-}
-
-/// Bilinear samples of the target at the eight positions, as eight consecutive texels.
-HWY_INLINE void sample_pattern(const PatternWarp& w, const float* HWY_RESTRICT xs, const float* HWY_RESTRICT ys,
-                               float* HWY_RESTRICT samples) {
-  const Quad d;
-  for (int i = 0; i < kPatternSize; ++i) {
-    const int ix = static_cast<int>(xs[i]);
-    const int iy = static_cast<int>(ys[i]);
-    const float fx = xs[i] - static_cast<float>(ix);
-    const float fy = ys[i] - static_cast<float>(iy);
-    const float* p = &w.texels[static_cast<std::ptrdiff_t>(iy) * w.width + ix].intensity;
-    const float* q = p + 4 * static_cast<std::ptrdiff_t>(w.width);
-    const auto vx = hn::Set(d, fx);
-    const auto p0 = hn::Load(d, p);
-    const auto q0 = hn::Load(d, q);
-    const auto top = hn::MulAdd(vx, hn::Sub(hn::Load(d, p + 4), p0), p0);
-    const auto bottom = hn::MulAdd(vx, hn::Sub(hn::Load(d, q + 4), q0), q0);
-    hn::Store(hn::MulAdd(hn::Set(d, fy), hn::Sub(bottom, top), top), d, samples + 4 * i);
-  }
 }
 
 HWY_INLINE void sum_pattern(const PatternJob& job, const float* HWY_RESTRICT samples, PatternSums& out) {
@@ -136,7 +117,7 @@ void evaluate_patterns_simd(const PatternJob* jobs, PatternSums* sums, int count
   for (int i = 0; i < count; ++i) {
     sums[i].in_view = false;
     if (!warp_pattern(jobs[i], xs, ys)) continue;
-    sample_pattern(*jobs[i].warp, xs, ys, samples);
+    sample_eight(jobs[i].warp->texels, jobs[i].warp->width, xs, ys, samples);
     sum_pattern(jobs[i], samples, sums[i]);
   }
 }

@@ -1,0 +1,223 @@
+#include "odometry/init/patch_tracker.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ldso {
+namespace {
+
+constexpr int kMaxIterations = 10;
+constexpr int kStartLevel = 2;           // Candidate starts are compared there: blurred enough, distinct enough.
+constexpr float kConverged = 0.02f;      // [px of the level]
+constexpr float kMaxMove = 5.0f;         // On one level [px of the level]; farther is a jump to something else.
+constexpr double kMinCorrelation = 0.7;  // Below it the patch shows something else.
+constexpr float kNoise = 5.0f;           // Grey levels, and
+constexpr float kMoveStddev = 3.0f;      // px: a level's start is known that well. Keeps edges from sliding.
+
+bool inside(const Image<Texel>& image, float x, float y) {
+  return x >= 0 && y >= 0 && x < static_cast<float>(image.width() - 1) && y < static_cast<float>(image.height() - 1);
+}
+
+bool corners_inside(const Image<Texel>& image, const Eigen::Vector2f& centre, const Eigen::Matrix2f& warp,
+                    float radius) {
+  for (const Eigen::Vector2f& corner : {Eigen::Vector2f(radius, radius), Eigen::Vector2f(radius, -radius)}) {
+    const Eigen::Vector2f d = warp * corner;
+    if (!inside(image, centre.x() + d.x(), centre.y() + d.y())) return false;
+    if (!inside(image, centre.x() - d.x(), centre.y() - d.y())) return false;
+  }
+  return true;
+}
+
+float interpolate(const Image<Texel>& image, float x, float y) {
+  const int ix = static_cast<int>(x);
+  const int iy = static_cast<int>(y);
+  const float fx = x - static_cast<float>(ix);
+  const float fy = y - static_cast<float>(iy);
+  const Texel* a = image.row(iy) + ix;
+  const Texel* b = a + image.width();
+  const float top = a[0].intensity + fx * (a[1].intensity - a[0].intensity);
+  const float bottom = b[0].intensity + fx * (b[1].intensity - b[0].intensity);
+  return top + fy * (bottom - top);
+}
+
+void remove_mean(float* values, int count) {
+  float sum = 0;
+  for (int i = 0; i < count; ++i) sum += values[i];
+  const float mean = sum / static_cast<float>(count);
+  for (int i = 0; i < count; ++i) values[i] -= mean;
+}
+
+}  // namespace
+
+PatchTracker::PatchTracker(const PreparedFrame& reference, const std::vector<Eigen::Vector2d>& pixels,
+                           ThreadPool& pool)
+    : levels_(static_cast<int>(reference.pyramid.levels.size())), templates_(pixels.size() * levels_) {
+  pool.for_chunks(static_cast<int>(pixels.size()), 64, [&](int, int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      for (int level = 0; level < levels_; ++level) {
+        templates_[static_cast<std::size_t>(i) * levels_ + level] =
+            make_template(reference.pyramid.levels[level], to_level(pixels[i], level));
+      }
+    }
+  });
+}
+
+PatchTracker::Template PatchTracker::make_template(const Image<Texel>& image, const Eigen::Vector2d& centre) const {
+  Template patch;
+  const Eigen::Vector2f c = centre.cast<float>();
+  const Eigen::Matrix2f identity = Eigen::Matrix2f::Identity();
+  // One pixel more than the patch: its gradients are differences of samples, as the iterations see them.
+  if (!corners_inside(image, c, identity, kRadius + 1) || !all_valid(image, c, identity)) return patch;
+  for (int y = -kRadius, k = 0; y <= kRadius; ++y) {
+    for (int x = -kRadius; x <= kRadius; ++x, ++k) {
+      const float px = c.x() + static_cast<float>(x);
+      const float py = c.y() + static_cast<float>(y);
+      patch.intensity[k] = interpolate(image, px, py);
+      patch.gx[k] = 0.5f * (interpolate(image, px + 1, py) - interpolate(image, px - 1, py));
+      patch.gy[k] = 0.5f * (interpolate(image, px, py + 1) - interpolate(image, px, py - 1));
+    }
+  }
+  remove_mean(patch.intensity, kPixels);
+  remove_mean(patch.gx, kPixels);
+  remove_mean(patch.gy, kPixels);
+  for (int k = 0; k < kPixels; ++k) {
+    patch.hxx += patch.gx[k] * patch.gx[k];
+    patch.hxy += patch.gx[k] * patch.gy[k];
+    patch.hyy += patch.gy[k] * patch.gy[k];
+    patch.energy += patch.intensity[k] * patch.intensity[k];
+  }
+  patch.usable = patch.energy > 0;
+  return patch;
+}
+
+bool PatchTracker::sample(const Image<Texel>& image, const Eigen::Vector2f& centre, const Eigen::Matrix2f& warp,
+                          float* values) {
+  if (!corners_inside(image, centre, warp, kRadius)) return false;
+  for (int y = -kRadius, k = 0; y <= kRadius; ++y) {
+    for (int x = -kRadius; x <= kRadius; ++x, ++k) {
+      const float fx = static_cast<float>(x);
+      const float fy = static_cast<float>(y);
+      values[k] = interpolate(image, centre.x() + warp(0, 0) * fx + warp(0, 1) * fy,
+                              centre.y() + warp(1, 0) * fx + warp(1, 1) * fy);
+    }
+  }
+  remove_mean(values, kPixels);
+  return true;
+}
+
+bool PatchTracker::all_valid(const Image<Texel>& image, const Eigen::Vector2f& centre, const Eigen::Matrix2f& warp) {
+  for (int y = -kRadius; y <= kRadius; ++y) {
+    for (int x = -kRadius; x <= kRadius; ++x) {
+      const Eigen::Vector2f p = centre + warp * Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y));
+      if (image(static_cast<int>(p.x() + 0.5f), static_cast<int>(p.y() + 0.5f)).valid == 0) return false;
+    }
+  }
+  return true;
+}
+
+PatchTracker::Misfit PatchTracker::misfit(const float* values, const Template& patch, float gain) const {
+  double squared = 0;
+  double product = 0;
+  double energy = 0;
+  for (int k = 0; k < kPixels; ++k) {
+    const double e = values[k] - gain * patch.intensity[k];
+    squared += e * e;
+    product += static_cast<double>(values[k]) * patch.intensity[k];
+    energy += static_cast<double>(values[k]) * values[k];
+  }
+  return {squared, product / patch.energy, product / std::sqrt(std::max(1e-12, energy * patch.energy))};
+}
+
+/// Gauss-Newton with the reference's gradients: with g the gain and A the warp, the gradient in the current
+/// frame is g A^-T grad and the step -1/g A H^-1 sum(grad e).
+bool PatchTracker::align(const Image<Texel>& image, const Template& patch, const Eigen::Matrix2f& warp, float gain,
+                         Eigen::Vector2f& centre) const {
+  const Eigen::Vector2f start = centre;
+  const float damping = kNoise * kNoise / (kMoveStddev * kMoveStddev);
+  Eigen::Matrix2f H;
+  H << patch.hxx + damping, patch.hxy, patch.hxy, patch.hyy + damping;
+  const Eigen::Matrix2f to_step = warp * H.inverse() / gain;
+  float values[kPixels];
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    if (!sample(image, centre, warp, values)) return false;
+    Eigen::Vector2f b = Eigen::Vector2f::Zero();
+    for (int k = 0; k < kPixels; ++k) {
+      const float e = values[k] - gain * patch.intensity[k];
+      b.x() += patch.gx[k] * e;
+      b.y() += patch.gy[k] * e;
+    }
+    const Eigen::Vector2f step = -(to_step * b);
+    centre += step;
+    if (!((centre - start).squaredNorm() < kMaxMove * kMaxMove)) return false;
+    if (step.squaredNorm() < kConverged * kConverged) return true;
+  }
+  return true;
+}
+
+Eigen::Vector2d PatchTracker::best_start(const PreparedFrame& current, std::size_t index,
+                                         const PatchPrediction& prediction, double gain) const {
+  const int level = std::min(kStartLevel, levels_ - 1);
+  const Template& patch = templates_[index * levels_ + level];
+  Eigen::Vector2d best = prediction.starts.front();
+  double best_squared = std::numeric_limits<double>::infinity();
+  float values[kPixels];
+  for (const Eigen::Vector2d& start : prediction.starts) {
+    const Eigen::Vector2f centre = to_level(start, level).cast<float>();
+    if (!patch.usable ||
+        !sample(current.pyramid.levels[level], centre, prediction.warp.cast<float>(), values)) {
+      continue;
+    }
+    const double squared = misfit(values, patch, static_cast<float>(gain)).squared;
+    if (squared < best_squared) {
+      best_squared = squared;
+      best = start;
+    }
+  }
+  return best;
+}
+
+PatchMatch PatchTracker::track_patch(const PreparedFrame& current, std::size_t index,
+                                     const PatchPrediction& prediction, double gain) const {
+  PatchMatch match;
+  if (prediction.starts.empty() || !templates_[index * levels_].usable) return match;
+  const Eigen::Matrix2f warp = prediction.warp.cast<float>();
+  match.position = best_start(current, index, prediction, gain);
+  for (int level = levels_ - 1; level >= 0; --level) {
+    const Template& patch = templates_[index * levels_ + level];
+    if (!patch.usable) continue;
+    Eigen::Vector2f centre = to_level(match.position, level).cast<float>();
+    const bool ok = align(current.pyramid.levels[level], patch, warp, static_cast<float>(gain), centre);
+    if (ok) match.position = from_level(centre.cast<double>(), level);
+    if (!ok && level == 0) return match;
+  }
+  const Template& patch = templates_[index * levels_];
+  const Image<Texel>& image = current.pyramid.levels[0];
+  const Eigen::Vector2f centre = match.position.cast<float>();
+  float values[kPixels];
+  if (!sample(image, centre, warp, values) || !all_valid(image, centre, warp)) return match;
+  const Misfit fit = misfit(values, patch, static_cast<float>(gain));
+  match.gain = fit.gain;
+  match.correlation = fit.correlation;
+  match.found = fit.correlation > kMinCorrelation;
+  // The misfit stands for noise and for all that the model leaves out; never below a grey level.
+  const double variance = std::max(1.0, fit.squared / (kPixels - 3));
+  Eigen::Matrix2d H;
+  H << patch.hxx, patch.hxy, patch.hxy, patch.hyy;
+  H += Eigen::Matrix2d::Identity() * (kNoise * kNoise / (kMoveStddev * kMoveStddev));
+  match.covariance = variance / (gain * gain) * prediction.warp * H.inverse() * prediction.warp.transpose();
+  return match;
+}
+
+std::vector<PatchMatch> PatchTracker::track(const PreparedFrame& current,
+                                            const std::vector<PatchPrediction>& predictions, double gain,
+                                            ThreadPool& pool) const {
+  std::vector<PatchMatch> matches(predictions.size());
+  pool.for_chunks(static_cast<int>(predictions.size()), 32, [&](int, int begin, int end) {
+    for (int i = begin; i < end; ++i) matches[i] = track_patch(current, i, predictions[i], gain);
+  });
+  return matches;
+}
+
+}  // namespace ldso

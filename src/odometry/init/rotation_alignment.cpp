@@ -1,0 +1,136 @@
+#include "odometry/init/rotation_alignment.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "image/interpolation.h"
+
+namespace ldso {
+namespace {
+
+constexpr int kIterations = 12;
+constexpr int kLongestSide = 170;  // The finest level used is not wider than this [px].
+constexpr float kHuber = 9.0f;
+constexpr double kMinOverlap = 0.4;
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+struct State {
+  SO3d rotation;
+  double gain = 1;
+  double offset = 0;
+};
+
+/// Normal equations of rotation, gain and offset over all pixels of a level.
+struct NormalEquations {
+  Matrix5 H = Matrix5::Zero();
+  Vector5 b = Vector5::Zero();
+  double energy = 0;
+  int used = 0;
+
+  double mean_energy(double pixels) const {
+    return used < kMinOverlap * pixels ? std::numeric_limits<double>::infinity() : energy / used;
+  }
+};
+
+class Level {
+ public:
+  Level(const Image<Texel>& from, const Image<Texel>& to, const PinholeIntrinsics& camera)
+      : from_(from), to_(to), camera_(camera) {}
+
+  NormalEquations linearize(const State& state) const {
+    NormalEquations sums;
+    const Eigen::Matrix3f R = state.rotation.matrix().cast<float>();
+    for (int y = 1; y + 1 < from_.height(); ++y) {
+      for (int x = 1; x + 1 < from_.width(); ++x) {
+        if (from_(x, y).valid != 0) add_pixel(x, y, R, state, sums);
+      }
+    }
+    return sums;
+  }
+
+  double pixels() const { return static_cast<double>(from_.width()) * from_.height(); }
+
+ private:
+  void add_pixel(int x, int y, const Eigen::Matrix3f& R, const State& state, NormalEquations& sums) const {
+    const float fx = static_cast<float>(camera_.fx);
+    const float fy = static_cast<float>(camera_.fy);
+    const float cx = static_cast<float>(camera_.cx);
+    const float cy = static_cast<float>(camera_.cy);
+    const Eigen::Vector3f q =
+        R * Eigen::Vector3f((static_cast<float>(x) - cx) / fx, (static_cast<float>(y) - cy) / fy, 1);
+    if (q.z() < 0.1f) return;
+    const float X = q.x() / q.z();
+    const float Y = q.y() / q.z();
+    const float u = fx * X + cx;
+    const float v = fy * Y + cy;
+    if (!is_interpolable(to_.view(), u, v)) return;
+    const Texel s = bilinear(to_.view(), u, v);
+    if (s.valid == 0) return;
+    const float reference = from_(x, y).intensity;
+    const float r = s.intensity - static_cast<float>(state.gain) * reference - static_cast<float>(state.offset);
+    const float weight = std::abs(r) <= kHuber ? 1.0f : kHuber / std::abs(r);
+    const float gx = s.dx * fx;
+    const float gy = s.dy * fy;
+    Vector5 J;
+    // d(u, v) / d omega for q -> q + omega x q at the normalized point (X, Y, 1).
+    J << -gx * X * Y - gy * (1 + Y * Y), gx * (1 + X * X) + gy * X * Y, -gx * Y + gy * X, -reference, -1;
+    sums.H.noalias() += static_cast<double>(weight) * J * J.transpose();
+    sums.b.noalias() += static_cast<double>(weight * r) * J;
+    sums.energy += std::abs(r) <= kHuber ? r * r : kHuber * (2 * std::abs(r) - kHuber);
+    ++sums.used;
+  }
+
+  const Image<Texel>& from_;
+  const Image<Texel>& to_;
+  const PinholeIntrinsics camera_;
+};
+
+/// Levenberg-Marquardt on one level; true if the energy went down.
+bool refine(const Level& level, State& state) {
+  NormalEquations now = level.linearize(state);
+  const double start_energy = now.mean_energy(level.pixels());
+  double energy = start_energy;
+  double lambda = 1e-3;
+  for (int i = 0; i < kIterations && std::isfinite(energy); ++i) {
+    Matrix5 H = now.H;
+    H.diagonal() *= 1 + lambda;
+    H.diagonal().array() += 1e-6;
+    const Vector5 step = -H.ldlt().solve(now.b);
+    if (!step.allFinite()) break;
+    const State trial{SO3d::exp(step.head<3>()) * state.rotation, state.gain + step[3], state.offset + step[4]};
+    const NormalEquations next = level.linearize(trial);
+    const double next_energy = next.mean_energy(level.pixels());
+    if (!(next_energy < energy)) {
+      lambda *= 10;
+      if (lambda > 1e3) break;
+      continue;
+    }
+    state = trial;
+    now = next;
+    energy = next_energy;
+    lambda = std::max(1e-6, lambda * 0.2);
+    if (step.head<3>().norm() < 1e-5) break;
+  }
+  return energy < start_energy;
+}
+
+}  // namespace
+
+SO3d align_rotation(const PreparedFrame& from, const PreparedFrame& to, const PinholeIntrinsics& camera) {
+  const auto& images = from.pyramid.levels;
+  const int coarsest = static_cast<int>(images.size()) - 1;
+  State state;
+  bool better = false;
+  for (int l = coarsest; l >= 0; --l) {
+    if (l < coarsest && std::max(images[l].width(), images[l].height()) > kLongestSide) break;
+    better |= refine(Level(images[l], to.pyramid.levels[l], level_intrinsics(camera, l)), state);
+  }
+  return better ? state.rotation : SO3d();
+}
+
+}  // namespace ldso

@@ -1,0 +1,92 @@
+#pragma once
+
+// The conductor of the odometry: one frame in, a pose out; keyframes and their points come out when they leave
+// the sliding window. Everything is emitted by value and forgotten.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "image/frame.h"
+#include "ldso/records.h"
+#include "ldso/settings.h"
+#include "odometry/coarse_tracker.h"
+#include "odometry/epipolar_tracer.h"
+#include "odometry/init/initializer.h"
+#include "odometry/point_activator.h"
+#include "odometry/selection/point_selector.h"
+#include "odometry/window/marginalizer.h"
+#include "odometry/window/window_optimizer.h"
+#include "util/stopwatch.h"
+#include "util/thread_pool.h"
+
+namespace ldso {
+
+/// What one frame brought about.
+struct OdometryOutput {
+  FrameRecord frame;
+  std::vector<KeyframeUpdate> finished;  ///< Keyframes that left the window.
+};
+
+class Odometry {
+ public:
+  /// `camera`: of the prepared frames. `calibrated`: whether intensities are irradiances. `pool` must outlive this.
+  /// Throws Error if a setting is out of range.
+  Odometry(const PinholeIntrinsics& camera, bool calibrated, const Settings& settings, ThreadPool& pool);
+
+  OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
+
+  /// The keyframes still in the window, as they are.
+  std::vector<KeyframeUpdate> window_keyframes() const;
+
+  const StageTimes& times() const { return times_; }
+  const Window& window() const { return window_; }
+  int keyframes() const { return keyframes_; }
+  int restarts() const { return restarts_; }
+
+ private:
+  void initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
+  void start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first,
+                    const std::shared_ptr<const PreparedFrame>& current);
+  void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
+  AlignmentResult align(const PreparedFrame& frame);
+  void handle_loss(const std::string& reason, OdometryOutput& output);
+  void restart(const std::string& reason, OdometryOutput& output);
+  void trace_immature(const PreparedFrame& frame, const SE3d& T_c_w, const Brightness& brightness);
+  Keyframe& add_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness);
+  /// False if the optimization failed: the window is no longer usable.
+  bool make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
+                     OdometryOutput& output);
+  void select_candidates(Keyframe& keyframe);
+  Keyframe& newest() const { return *window_.keyframes.back(); }
+
+  PinholeIntrinsics camera_;
+  bool calibrated_;
+  Settings settings_;
+  ThreadPool& pool_;
+  StageTimes times_;
+
+  TrackingState state_ = TrackingState::kInitializing;
+  std::unique_ptr<Initializer> initializer_;
+  std::unique_ptr<PointSelector> selector_;
+  CoarseTracker tracker_;
+  EpipolarTracer tracer_;
+  PointActivator activator_;
+  WindowOptimizer optimizer_;
+  Marginalizer marginalizer_;
+  Window window_;
+
+  SE3d T_last_ref_;        ///< Last tracked frame relative to the newest keyframe.
+  SE3d T_last_previous_;   ///< Motion between the last two tracked frames.
+  Brightness last_brightness_;
+  std::vector<double> last_rmse_;  ///< Of each level.
+  double first_rmse_ = 0;  ///< Of the first frame aligned to the newest keyframe.
+  SE3d T_start_world_;     ///< Where the window's first keyframe is put.
+  double start_scale_ = 1; ///< Mean depth there.
+  int lost_frames_ = 0;
+  int keyframes_ = 0;
+  int window_keyframes_made_ = 0;  ///< Since the window started.
+  int restarts_ = 0;
+};
+
+}  // namespace ldso

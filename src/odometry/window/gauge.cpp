@@ -1,0 +1,32 @@
+#include "odometry/window/gauge.h"
+
+#include <Eigen/SVD>
+
+namespace ldso {
+
+Eigen::MatrixXd gauge_basis(const Window& window) {
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(window.dim(), 7);
+  for (const auto& keyframe : window.keyframes) {
+    const SE3d& T = keyframe->state.T_c_w_lin;
+    const int row = Window::offset(keyframe->index);
+    // T_c_w exp(x) = exp(Ad(T_c_w) x) T_c_w: motions of the world.
+    directions.block<6, 6>(row, 0) = T.adjoint();
+    // Scaling the world scales the translation.
+    directions.block<3, 1>(row, 6) = T.translation();
+  }
+  for (int i = 0; i < 7; ++i) {
+    const double norm = directions.col(i).norm();
+    if (norm > 1e-12) directions.col(i) /= norm;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(directions, Eigen::ComputeThinU);
+  Eigen::Index rank = 0;
+  while (rank < 7 && svd.singularValues()[rank] > 1e-5 * svd.singularValues()[0]) ++rank;
+  return svd.matrixU().leftCols(rank);
+}
+
+void remove_gauge(const Window& window, Eigen::VectorXd& step) {
+  const Eigen::MatrixXd basis = gauge_basis(window);
+  step -= basis * (basis.transpose() * step);
+}
+
+}  // namespace ldso

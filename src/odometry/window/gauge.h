@@ -1,0 +1,17 @@
+#pragma once
+
+// The directions that images cannot determine: global pose and scale. First-estimate Jacobians keep them free
+// in the normal equations; steps along them are noise and are taken out [D 2.3].
+
+#include "odometry/window/window.h"
+
+namespace ldso {
+
+/// Orthonormal basis (columns) of the gauge at the points of linearization, `window.dim()` rows; 7 columns if the
+/// camera has moved.
+Eigen::MatrixXd gauge_basis(const Window& window);
+
+/// Takes the gauge out of a step of all variables.
+void remove_gauge(const Window& window, Eigen::VectorXd& step);
+
+}  // namespace ldso

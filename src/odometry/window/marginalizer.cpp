@@ -1,0 +1,109 @@
+#include "odometry/window/marginalizer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ldso {
+namespace {
+
+/// Residuals a point must have now, and must have had as inliers, to be worth keeping.
+constexpr std::size_t kLeastResiduals = 3;
+constexpr int kLeastGoodResiduals = 4;
+/// A point with that many good residuals may go when few keyframes that stay see it.
+constexpr int kManyGoodResiduals = kLeastGoodResiduals + 10;
+
+}  // namespace
+
+MapPoint make_map_point(const ActivePoint& point) {
+  MapPoint result;
+  result.u = point.u;
+  result.v = point.v;
+  result.idepth = point.idepth;
+  // The residuals of a pattern are correlated: one pixel's noise of one grey level is the unit.
+  result.idepth_stddev = std::sqrt(1.0f / std::max(point.idepth_hessian, 1e-3f));
+  result.intensity = point.patch.intensity[4];
+  result.is_corner = point.is_corner;
+  return result;
+}
+
+KeyframeUpdate make_update(const Keyframe& keyframe, bool with_active) {
+  KeyframeUpdate update;
+  update.frame_id = keyframe.id();
+  update.timestamp = keyframe.frame->timestamp;
+  update.T_world_camera = keyframe.state.T_c_w().inverse();
+  update.points = keyframe.finished;
+  if (!with_active) return update;
+  for (const ActivePoint& point : keyframe.points) {
+    if (point.good_residuals >= kLeastGoodResiduals) update.points.push_back(make_map_point(point));
+  }
+  return update;
+}
+
+bool Marginalizer::is_reliable(const ActivePoint& point) const {
+  return point.residuals.size() >= kLeastResiduals && point.good_residuals >= kLeastGoodResiduals &&
+         point.idepth_hessian > settings_.least_idepth_hessian && point.idepth > 0;
+}
+
+bool Marginalizer::leaves_view(const ActivePoint& point) const {
+  const auto leaving = static_cast<std::size_t>(std::count_if(
+      point.residuals.begin(), point.residuals.end(), [](const PointResidual& r) { return r.target->leaving; }));
+  if (point.residuals.size() >= kLeastResiduals && point.good_residuals > kManyGoodResiduals &&
+      point.residuals.size() - leaving < kLeastResiduals) {
+    return true;
+  }
+  if (point.newest_states[0] == ResidualState::kOutOfView) return true;
+  if (point.residuals.size() < 2) return false;
+  return point.newest_states[0] == ResidualState::kOutlier && point.newest_states[1] == ResidualState::kOutlier;
+}
+
+void Marginalizer::remove_points(Window& window) {
+  marginalize_points(window);
+  for (auto& keyframe : window.keyframes) {
+    std::erase_if(keyframe->points, [&](const ActivePoint& point) {
+      const bool useless = point.residuals.empty() || !(point.idepth > 0);
+      if (!point.flagged && !useless && !leaves_view(point) && !keyframe->leaving) return false;
+      if (!point.flagged) ++keyframe->dropped;
+      return true;
+    });
+  }
+}
+
+void Marginalizer::marginalize_points(Window& window) {
+  for (auto& keyframe : window.keyframes) {
+    for (ActivePoint& point : keyframe->points) {
+      point.flagged = (keyframe->leaving || leaves_view(point)) && is_reliable(point);
+      if (!point.flagged) continue;
+      keyframe->finished.push_back(make_map_point(point));
+      keyframe->in_prior = true;
+      for (PointResidual& residual : point.residuals) residual.target->in_prior = true;
+    }
+  }
+  const auto chunks = chunk_points(window, [](const ActivePoint& point) { return point.flagged; });
+  if (chunks.empty()) return;
+  const NormalEquations equations = builder_.build(window, FramePairs(window), chunks, 0.0);
+  const double weight = settings_.marginalization_weight;
+  window.prior.add(weight * (equations.H - equations.H_sc), weight * (equations.b - equations.b_sc), window.delta());
+}
+
+std::vector<KeyframeUpdate> Marginalizer::remove_keyframes(Window& window) {
+  std::vector<KeyframeUpdate> updates;
+  for (int i = 0; i < window.size();) {
+    Keyframe* leaving = window.keyframes[i].get();
+    if (!leaving->leaving) {
+      ++i;
+      continue;
+    }
+    for (auto& keyframe : window.keyframes) {
+      for (ActivePoint& point : keyframe->points) {
+        std::erase_if(point.residuals, [&](const PointResidual& r) { return r.target == leaving; });
+      }
+    }
+    updates.push_back(make_update(*leaving, false));
+    window.prior.marginalize(Window::offset(i), kFrameDof, leaving->prior, -leaving->prior.cwiseProduct(leaving->prior_mean));
+    window.keyframes.erase(window.keyframes.begin() + i);
+    window.renumber();
+  }
+  return updates;
+}
+
+}  // namespace ldso
