@@ -36,12 +36,18 @@ class Dataset {
 };
 
 struct DatasetOptions {
-  int start = 0;           ///< First frame that is used.
-  std::optional<int> end;  ///< First frame after `start` that is not used any more; beyond the sequence: all.
-  int stride = 1;          ///< Use every stride-th frame, beginning with `start`.
-  bool reverse = false;    ///< Play from the last to the first used frame; timestamps stay the sequence's own.
-  std::optional<std::filesystem::path> calibration_file;  ///< In camera.txt format; instead of the sequence's own.
-  std::optional<double> fps;                              ///< Frame rate of sequences without times [Hz].
+  /// First frame that is used.
+  int start = 0;
+  /// First frame after `start` that is not used any more; nothing or beyond the sequence: all are.
+  std::optional<int> end = std::nullopt;
+  /// Use every stride-th frame, beginning with `start`.
+  int stride = 1;
+  /// Play from the last to the first used frame; timestamps stay the sequence's own and so decrease.
+  bool reverse = false;
+  /// In camera.txt format; used instead of the sequence's own.
+  std::optional<std::filesystem::path> calibration_file = std::nullopt;
+  /// Frame rate of sequences without times [Hz].
+  std::optional<double> fps = std::nullopt;
 };
 
 /// Recognizes the format of a folder or file and opens it, with start, end, stride and reverse applied.

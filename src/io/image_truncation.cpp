@@ -10,6 +10,8 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kBmpHeader = 54;
+constexpr std::size_t kLargestHeaderNumber = 1'000'000;
 constexpr std::uint8_t kStartOfScan = 0xda;
 constexpr std::uint8_t kEndOfImage = 0xd9;
 
@@ -69,11 +71,52 @@ bool png_is_complete(Bytes bytes) {
   return false;
 }
 
+bool starts_as_binary_pnm(Bytes bytes) {
+  return bytes.size() >= 2 && bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6');
+}
+
+/// The next number of a PNM header, skipping blanks and comments before it; 0 if the bytes end.
+std::size_t pnm_number(Bytes bytes, std::size_t& position) {
+  const auto is_digit = [&] { return bytes[position] >= '0' && bytes[position] <= '9'; };
+  for (; position < bytes.size() && !is_digit(); ++position) {
+    if (bytes[position] != '#') continue;
+    while (position < bytes.size() && bytes[position] != '\n') ++position;
+    if (position == bytes.size()) return 0;
+  }
+  std::size_t number = 0;
+  for (; position < bytes.size() && is_digit() && number < kLargestHeaderNumber; ++position) {
+    number = 10 * number + bytes[position] - '0';
+  }
+  return position < bytes.size() ? number : 0;
+}
+
+bool pnm_is_complete(Bytes bytes) {
+  std::size_t position = 2;
+  const std::size_t width = pnm_number(bytes, position);
+  const std::size_t height = pnm_number(bytes, position);
+  const std::size_t maximum = pnm_number(bytes, position);
+  const std::size_t channels = bytes[1] == '6' ? 3 : 1;
+  const std::size_t bytes_per_value = maximum > 255 ? 2 : 1;
+  const std::size_t header = position + 1;
+  return maximum > 0 && bytes.size() >= header + width * height * channels * bytes_per_value;
+}
+
+bool starts_as_bmp(Bytes bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
+
+/// Some writers leave the size in the header at 0.
+bool bmp_is_complete(Bytes bytes) {
+  if (bytes.size() < kBmpHeader) return false;
+  const auto at = [&](std::size_t offset) { return static_cast<std::size_t>(bytes[offset]); };
+  return bytes.size() >= (at(2) | at(3) << 8 | at(4) << 16 | at(5) << 24);
+}
+
 }  // namespace
 
 bool is_truncated_image(Bytes bytes) {
   if (starts_as_jpeg(bytes)) return !jpeg_is_complete(bytes);
   if (starts_as_png(bytes)) return !png_is_complete(bytes);
+  if (starts_as_binary_pnm(bytes)) return !pnm_is_complete(bytes);
+  if (starts_as_bmp(bytes)) return !bmp_is_complete(bytes);
   return false;
 }
 

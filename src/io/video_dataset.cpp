@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <set>
@@ -53,7 +54,11 @@ class VideoReader {
  private:
   void reopen() {
     next_ = 0;
-    if (capture_.open(path_.string(), cv::CAP_ANY)) return;
+    // OpenCV tries one library after the other and prints what each of them says.
+    const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    const bool opened = capture_.open(path_.string(), cv::CAP_ANY);
+    cv::utils::logging::setLogLevel(level);
+    if (opened) return;
     throw Error(path_.string(), "the video cannot be opened", "convert it, to H.264 in an .mp4 file for instance");
   }
 
