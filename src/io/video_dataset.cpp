@@ -1,6 +1,7 @@
 #include "io/video_dataset.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <opencv2/core.hpp>
@@ -20,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Those that read files; cv::CAP_ANY would look for cameras on the bus as well.
+constexpr std::array<int, 3> kFileBackends{cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG, cv::CAP_GSTREAMER};
 constexpr double kDefaultFps = 30.0;
 constexpr int kBlock = 32;  ///< Frames that are decoded and kept at once when reading backwards.
 
@@ -56,7 +59,8 @@ class VideoReader {
     next_ = 0;
     // OpenCV tries one library after the other and prints what each of them says.
     const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    const bool opened = capture_.open(path_.string(), cv::CAP_ANY);
+    const bool opened = std::any_of(kFileBackends.begin(), kFileBackends.end(),
+                                    [this](int backend) { return capture_.open(path_.string(), backend); });
     cv::utils::logging::setLogLevel(level);
     if (opened) return;
     throw Error(path_.string(), "the video cannot be opened", "convert it, to H.264 in an .mp4 file for instance");
