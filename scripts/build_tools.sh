@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Shared by the scripts that build; sourced, with the repository as the working folder.
 
 # build_jobs: as many compilers as there are processors and memory (about 1.5 GB each).

@@ -71,5 +71,5 @@ step "Done"
 printf 'ATE                 %s m, %s %% of the path\n' "$ate" "$percent"
 printf 'speed               %.1f frames/s (%s of %s frames have a pose)\n' "$(entry frames_per_s)" \
   "$(entry frames_with_pose)" "$(awk 'NF' "$sequence/times.txt" | wc -l)"
-printf 'trajectory picture  %s\n' "$PWD/${result#"$PWD"/}/trajectory.svg"
-printf 'point cloud         %s\n' "$PWD/${result#"$PWD"/}/map.ply"
+printf 'trajectory picture  %s\n' "$(realpath "$result/trajectory.svg")"
+printf 'point cloud         %s\n' "$(realpath "$result/map.ply")"
