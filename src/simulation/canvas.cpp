@@ -82,6 +82,24 @@ void Canvas::writing(double x0, double y0, double x1, double y1, double line_hei
   }
 }
 
+void Canvas::soften() {
+  const int width = image_.width(), height = image_.height();
+  const Image<float> sharp = image_;
+  Image<float> rows(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float before = sharp(std::max(x - 1, 0), y), after = sharp(std::min(x + 1, width - 1), y);
+      rows(x, y) = 0.25f * (before + after) + 0.5f * sharp(x, y);
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float before = rows(x, std::max(y - 1, 0)), after = rows(x, std::min(y + 1, height - 1));
+      image_(x, y) = 0.25f * (before + after) + 0.5f * rows(x, y);
+    }
+  }
+}
+
 PlacedNoise::PlacedNoise(const NoiseTile& tile, double cell, std::uint64_t seed) : tile_(tile) {
   Random random(seed, 0x2015e);
   const double scale = NoiseTile::kSize / 16.0 / cell, angle = random.uniform(0, 2 * std::numbers::pi);

@@ -51,6 +51,9 @@ class Canvas {
              std::uint64_t seed);
   /// Rows of marks that look like writing from afar.
   void writing(double x0, double y0, double x1, double y1, double line_height, float value, std::uint64_t seed);
+  /// Smooths with [1 2 1] / 4 in both directions: a painted edge may be as sharp as one texel, which bilinear look-ups
+  /// of the finest level cannot show from everywhere in the same way.
+  void soften();
 
  private:
   double width_, height_;

@@ -37,7 +37,7 @@ class Corridor {
 
  private:
   Skin painted(double width, double height, std::function<void(Canvas&)> painter, double texel = kTexel) {
-    return {builder_.paint(width, height, texel, std::move(painter)), 0, 0.05f};
+    return {builder_.paint(width, height, texel, std::move(painter)), 0, 0};
   }
 
   /// In pieces of a few metres, each with a look of its own; u runs from `from` to `to`.

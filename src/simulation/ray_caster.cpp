@@ -16,6 +16,11 @@ constexpr int kMaxRows = 16;
 constexpr int kMaxRays = kMaxColumns * kMaxRows;
 constexpr int kSubsamples = 16;
 constexpr int kMaxProbes = 12;
+constexpr int kMaxDetailProbes = 6;
+constexpr int kMaxNear = 64;  ///< Surfaces that are looked at within one pixel.
+/// Side of the square that the subsamples of a mixed pixel cover [px]: like the textures' filter wider than a pixel.
+constexpr float kSpread = 1.4f;
+constexpr float kReach = 0.5f * kSpread + 0.05f;
 
 /// Linear function of the ray direction: a * x + b * y + c.
 struct LinearForm {
@@ -42,10 +47,10 @@ EdgeValues edges(const Candidate& s, float x, float y) {
   return {{uw, vw, w - uw, w - vw}};
 }
 
-/// How far each boundary form moves over half a pixel.
+/// How far each boundary form moves over the reach of the subsamples.
 EdgeValues edge_margins(const Candidate& s, const Eigen::Vector2f& d_du, const Eigen::Vector2f& d_dv) {
   const auto reach = [&](float a, float b) {
-    return 0.55f * (std::abs(a * d_du.x() + b * d_du.y()) + std::abs(a * d_dv.x() + b * d_dv.y()));
+    return kReach * (std::abs(a * d_du.x() + b * d_du.y()) + std::abs(a * d_dv.x() + b * d_dv.y()));
   };
   const LinearForm& w = s.w;
   const LinearForm& u = s.uw;
@@ -55,13 +60,13 @@ EdgeValues edge_margins(const Candidate& s, const Eigen::Vector2f& d_du, const E
   return {{reach(u.a, u.b), reach(v.a, v.b), far_u, far_v}};
 }
 
-/// Points inside of the square pixel such that their projections on both axes are evenly spread (Hammersley set).
+/// Points inside of the square of a pixel such that their projections on both axes are evenly spread (Hammersley set).
 std::array<Eigen::Vector2f, kSubsamples> make_subsamples() {
   std::array<Eigen::Vector2f, kSubsamples> points;
   for (int i = 0; i < kSubsamples; ++i) {
     const int reversed = ((i & 1) << 3) | ((i & 2) << 1) | ((i & 4) >> 1) | ((i & 8) >> 3);
-    points[i] = {(static_cast<float>(i) + 0.5f) / kSubsamples - 0.5f,
-                 (static_cast<float>(reversed) + 0.5f) / kSubsamples - 0.5f};
+    points[i] = {kSpread * ((static_cast<float>(i) + 0.5f) / kSubsamples - 0.5f),
+                 kSpread * ((static_cast<float>(reversed) + 0.5f) / kSubsamples - 0.5f)};
   }
   return points;
 }
@@ -339,40 +344,70 @@ class Block {
     ray_derivatives(column, row, d_du, d_dv);
     if (mixed_[i] != 0) return mixed_radiance(x_[i], y_[i], d_du, d_dv);
     if (hit_[i] < 0) return sky_radiance(x_[i], y_[i], d_du);
-    return surface_radiance(candidates_[hit_[i]], x_[i], y_[i], d_du, d_dv, kMaxProbes);
+    return surface_radiance(candidates_[hit_[i]], x_[i], y_[i], d_du, d_dv);
   }
 
+  /// Mean over the surfaces in the pixel, each looked up once, where it is seen, and weighted with what it covers.
   float mixed_radiance(float x, float y, const Eigen::Vector2f& d_du, const Eigen::Vector2f& d_dv) const {
     static const std::array<Eigen::Vector2f, kSubsamples> kOffsets = make_subsamples();
-    const Candidate* near[kMaxRays];
-    int count = 0;
-    for (const Candidate& s : candidates_) {
-      const EdgeValues edge = edges(s, x, y), margin = edge_margins(s, d_du, d_dv);
-      bool touched = count < kMaxRays;
-      for (int k = 0; k < 4; ++k) touched &= edge.value[k] > -margin.value[k];
-      if (touched) near[count++] = &s;
+    const Candidate* near[kMaxNear];
+    const int count = candidates_near(x, y, d_du, d_dv, near);
+    std::array<int, kSubsamples> seen;  // Index in `near`, or -1 for the sky.
+    for (int k = 0; k < kSubsamples; ++k) {
+      const Eigen::Vector2f at = Eigen::Vector2f(x, y) + kOffsets[k].x() * d_du + kOffsets[k].y() * d_dv;
+      seen[k] = nearest_of(near, count, at.x(), at.y());
     }
     float sum = 0;
-    for (const Eigen::Vector2f& offset : kOffsets) {
-      const Eigen::Vector2f at = Eigen::Vector2f(x, y) + offset.x() * d_du + offset.y() * d_dv;
-      const Candidate* nearest = nullptr;
-      float best = 0;
-      for (int i = 0; i < count; ++i) {
-        const float w = near[i]->w(at.x(), at.y());
-        if (w <= best) continue;
-        const EdgeValues edge = edges(*near[i], at.x(), at.y());
-        if (edge.value[0] < 0 || edge.value[1] < 0 || edge.value[2] < 0 || edge.value[3] < 0) continue;
-        best = w;
-        nearest = near[i];
+    std::array<bool, kSubsamples> done{};
+    for (int k = 0; k < kSubsamples; ++k) {
+      if (done[k]) continue;
+      Eigen::Vector2f middle = Eigen::Vector2f::Zero();
+      int covered = 0;
+      for (int l = k; l < kSubsamples; ++l) {
+        if (seen[l] != seen[k]) continue;
+        done[l] = true;
+        middle += kOffsets[l];
+        ++covered;
       }
-      sum += nearest == nullptr ? sky_radiance(at.x(), at.y(), d_du)
-                                : surface_radiance(*nearest, at.x(), at.y(), 0.5f * d_du, 0.5f * d_dv, 2);
+      middle /= static_cast<float>(covered);
+      const Eigen::Vector2f at = Eigen::Vector2f(x, y) + middle.x() * d_du + middle.y() * d_dv;
+      const float narrow = covered == kSubsamples ? 1.0f : 0.75f;
+      const float value = seen[k] < 0 ? sky_radiance(at.x(), at.y(), d_du)
+                                      : surface_radiance(*near[seen[k]], at.x(), at.y(), narrow * d_du, narrow * d_dv);
+      sum += static_cast<float>(covered) * value;
     }
     return sum / kSubsamples;
   }
 
-  float surface_radiance(const Candidate& c, float x, float y, const Eigen::Vector2f& d_du, const Eigen::Vector2f& d_dv,
-                         int probes) const {
+  /// Candidates that any subsample of the pixel can see.
+  int candidates_near(float x, float y, const Eigen::Vector2f& d_du, const Eigen::Vector2f& d_dv,
+                      const Candidate** near) const {
+    int count = 0;
+    for (const Candidate& s : candidates_) {
+      const EdgeValues edge = edges(s, x, y), margin = edge_margins(s, d_du, d_dv);
+      bool touched = count < kMaxNear;
+      for (int k = 0; k < 4; ++k) touched &= edge.value[k] > -margin.value[k];
+      if (touched) near[count++] = &s;
+    }
+    return count;
+  }
+
+  static int nearest_of(const Candidate* const* near, int count, float x, float y) {
+    int nearest = -1;
+    float best = 0;
+    for (int i = 0; i < count; ++i) {
+      const float w = near[i]->w(x, y);
+      if (w <= best) continue;
+      const EdgeValues edge = edges(*near[i], x, y);
+      if (edge.value[0] < 0 || edge.value[1] < 0 || edge.value[2] < 0 || edge.value[3] < 0) continue;
+      best = w;
+      nearest = i;
+    }
+    return nearest;
+  }
+
+  float surface_radiance(const Candidate& c, float x, float y, const Eigen::Vector2f& d_du,
+                         const Eigen::Vector2f& d_dv) const {
     const Surface& s = scene_.surfaces()[c.surface];
     const float depth = 1.0f / c.w(x, y);
     const float u = c.uw(x, y) * depth, v = c.vw(x, y) * depth;
@@ -387,11 +422,11 @@ class Block {
                                 dv_dx * m.t_v,    du_dy * m.s_u,    dv_dy * m.t_v};
       return scene_.texture(m.texture).sample(footprint, most);
     };
-    float value = look_up(s.base, probes);
+    float value = look_up(s.base, kMaxProbes);
     if (s.detail.texture >= 0) {
       // Fine detail averages out over large footprints: no need to look it up there.
       const float area = std::abs(du_dx * dv_dy - du_dy * dv_dx) * std::abs(s.detail.s_u * s.detail.t_v);
-      if (area < 32.0f * 32.0f) value += s.detail_gain * (look_up(s.detail, std::min(probes, 6)) - Scene::kDetailMean);
+      if (area < 32.0f * 32.0f) value += s.detail_gain * (look_up(s.detail, kMaxDetailProbes) - Scene::kDetailMean);
     }
     return std::max(0.0f, value * s.gain);
   }

