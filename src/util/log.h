@@ -1,14 +1,8 @@
 #pragma once
 
-#include <functional>
-#include <string>
+#include "ldso/log.h"
 
 namespace ldso {
-
-enum class LogLevel { kInfo, kWarning };
-
-/// Where the library says what a user should know; it prints nothing by itself. Called from any thread.
-using LogSink = std::function<void(LogLevel, const std::string&)>;
 
 inline void log_to(const LogSink& sink, LogLevel level, const std::string& message) {
   if (sink) sink(level, message);

@@ -1,0 +1,100 @@
+#pragma once
+// The whole system as one class: images in, camera poses and a sparse map out.
+//
+//   ldso::Slam slam(calibration, ldso::Settings{});
+//   for (...) slam.process(image, timestamp);
+//   const ldso::SlamResult result = slam.finish();
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ldso/calibration.h"
+#include "ldso/image.h"
+#include "ldso/log.h"
+#include "ldso/records.h"
+#include "ldso/settings.h"
+
+namespace ldso {
+
+/// A frame's pose in the world of the map.
+struct TimedPose {
+  std::int64_t frame_id = 0;
+  double timestamp = 0;  ///< [s]
+  SE3d T_world_camera;
+};
+
+/// A point of the map in the world.
+struct WorldPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [map units]
+  float idepth_stddev = 0;                             ///< Of the inverse depth in the host keyframe [1 / map unit].
+  float intensity = 0;                                 ///< Irradiance, 0..255.
+};
+
+/// Time spent in one stage of the processing.
+struct StageTime {
+  std::int64_t calls = 0;
+  double total_ms = 0;
+  double worst_ms = 0;
+};
+
+/// Everything that is left after the last frame. Poses and points have the free scale of a single camera.
+struct SlamResult {
+  std::vector<FrameRecord> frames;        ///< Of all frames, in the order in which they came.
+  std::vector<KeyframeUpdate> keyframes;  ///< With final poses and points, in the order of their frame ids.
+  PinholeIntrinsics camera;               ///< Of the rectified images, as estimated: the points' pixels are its own.
+  int restarts = 0;                       ///< How often the map was lost and a new one begun.
+  int skipped = 0;                        ///< Frames that could not be used.
+  std::map<std::string, StageTime> stage_times;
+
+  /// Poses of all frames that have one, in the order of `frames`: that of its reference keyframe, as finally
+  /// estimated, times its own relative to it. A frame without a known keyframe or with a pose that is not finite has
+  /// none; the first frame of a map has that of the keyframe it became.
+  std::vector<TimedPose> trajectory() const;
+
+  /// Poses of the keyframes, in their order.
+  std::vector<TimedPose> keyframe_trajectory() const;
+
+  /// All points with a positive, finite inverse depth.
+  std::vector<WorldPoint> points() const;
+};
+
+/// Monocular direct SLAM, one image at a time. The same images and settings give the same bits, whatever
+/// `Settings::threads` is. One object must not be used from several threads at once; several objects may.
+class Slam {
+ public:
+  /// `log` hears of losses and restarts; it may be empty.
+  /// Throws Error if the calibration or a setting makes no sense.
+  Slam(const Calibration& calibration, const Settings& settings, LogSink log = {});
+  ~Slam();
+  Slam(Slam&&) noexcept;
+  Slam& operator=(Slam&&) noexcept;
+  Slam(const Slam&) = delete;
+  Slam& operator=(const Slam&) = delete;
+
+  /// One grey image as the camera took it, of the calibration's size: 8 bit, 16 bit (full range) or grey levels in
+  /// 0..255. `timestamp` [s] is passed through. An exposure that is not finite and positive counts as unknown.
+  /// Frame ids count the calls from 0. Throws Error for a wrong size, and after finish(); a frame that is
+  /// refused leaves the system as it was.
+  FrameRecord process(ImageView<const std::uint8_t> image, double timestamp, std::optional<double> exposure_ms = {});
+  FrameRecord process(ImageView<const std::uint16_t> image, double timestamp, std::optional<double> exposure_ms = {});
+  FrameRecord process(ImageView<const float> image, double timestamp, std::optional<double> exposure_ms = {});
+
+  /// Pose of the newest frame as now estimated; none while it is not tracked.
+  std::optional<SE3d> T_world_camera() const;
+
+  /// The camera of the rectified images that tracking works on.
+  PinholeIntrinsics rectified_camera() const;
+
+  /// Ends the run and hands over its result. No frame can follow.
+  SlamResult finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ldso

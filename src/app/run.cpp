@@ -1,0 +1,141 @@
+#include "app/run.h"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/interrupt.h"
+#include "app/progress_display.h"
+#include "app/run_files.h"
+#include "app/run_report.h"
+#include "io/settings_file.h"
+#include "ldso/error.h"
+#include "slam/sequence_runner.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunArguments {
+  fs::path sequence, out;
+  DatasetOptions dataset;
+  std::optional<fs::path> config;
+  std::optional<int> threads;
+  std::vector<std::string> set;
+  bool kitti = false, quiet = false, no_loops = false;
+};
+
+void add_options(CLI::App& command, RunArguments& a) {
+  command.add_option("sequence", a.sequence, "Folder or video file; the format is recognized")->required();
+  command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
+  command.add_option("--start", a.dataset.start, "First frame")->check(CLI::NonNegativeNumber);
+  command.add_option("--end", a.dataset.end, "First frame that is not used any more");
+  command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(CLI::PositiveNumber);
+  command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
+  command.add_option("--calib", a.dataset.calibration_file,
+                     "Calibration (camera.txt format) instead of the sequence's");
+  command.add_option("--fps", a.dataset.fps, "Frame rate of a sequence without times [Hz]")->check(CLI::PositiveNumber);
+  command.add_option("--config", a.config, "Settings (YAML)");
+  command.add_option("--set", a.set, "One setting, e.g. selection.strategy=gradient; can be repeated")
+      ->type_name("KEY=VALUE");
+  command.add_option("--threads", a.threads, "Threads that work on a frame; the result does not depend on it");
+  command.add_flag("--no-loops", a.no_loops, "Odometry alone, without loop closing");
+  command.add_flag("--kitti", a.kitti, "Also write trajectory_kitti.txt");
+  command.add_flag("--quiet", a.quiet, "Print warnings only");
+}
+
+Settings read_all_settings(const RunArguments& a) {
+  Settings settings;
+  if (a.config) read_settings(*a.config, settings);
+  for (const std::string& assignment : a.set) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw Error("--set " + assignment, "has no value", "write --set key=value");
+    set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  if (a.threads) settings.threads = *a.threads;
+  settings.validate();
+  return settings;
+}
+
+/// Passes messages to the display and keeps the warnings for run.json.
+class WarningLog {
+ public:
+  explicit WarningLog(ProgressDisplay& display) : display_(display) {}
+
+  void operator()(LogLevel level, const std::string& text) {
+    display_.message(level, text);
+    if (level != LogLevel::kWarning) return;
+    const std::lock_guard lock(mutex_);
+    warnings_.push_back(text);
+  }
+  std::vector<std::string> warnings() const { return warnings_; }
+
+ private:
+  ProgressDisplay& display_;
+  std::mutex mutex_;
+  std::vector<std::string> warnings_;
+};
+
+/// Runs the sequence with everything that is shown meanwhile.
+void run_with_display(const Dataset& dataset, const RunArguments& a, RunSummary& summary) {
+  ProgressDisplay display(a.quiet);
+  WarningLog log(display);
+  for (const std::string& warning : dataset.warnings()) log(LogLevel::kWarning, warning);
+  Pipeline pipeline(dataset.calibration(), summary.settings,
+                    [&log](LogLevel level, const std::string& text) { log(level, text); });
+  const InterruptGuard interrupt;
+  RunOptions options;
+  options.stop = &interrupt.flag();
+  options.progress = [&display](const RunProgress& progress) { display.update(progress); };
+  summary.run = run_sequence(dataset, pipeline, options);
+  if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
+  summary.warnings = log.warnings();
+}
+
+int exit_code_of(const RunSummary& summary) {
+  if (summary.run.stopped) return kInterruptedExitCode;
+  return summary.trajectory.empty() ? kNothingTrackedExitCode : 0;
+}
+
+int run(const RunArguments& a) {
+  RunSummary summary;
+  summary.sequence_path = a.sequence;
+  summary.dataset_options = a.dataset;
+  summary.settings = read_all_settings(a);
+  const std::unique_ptr<Dataset> dataset = open_dataset(a.sequence, a.dataset);
+  prepare_output_folder(a.out);
+
+  run_with_display(*dataset, a, summary);
+  collect_results(summary);
+  summary.evaluation = evaluate_run(summary.trajectory, *dataset);
+  write_run_files(a.out, summary, *dataset, a.kitti);
+
+  if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
+  if (!summary.run.error.empty()) {
+    throw Error(a.sequence.string(), "the run ended early: " + summary.run.error,
+                "the frames up to there are saved in " + a.out.string());
+  }
+  const int code = exit_code_of(summary);
+  if (code == kNothingTrackedExitCode) {
+    const auto stretches = untracked_stretches(summary);
+    std::cerr << "error: " << a.sequence.string() << ": no frame could be tracked"
+              << (stretches.empty() ? "" : "; last reason: " + stretches.back().reason) << "\n";
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "Track the camera through a sequence and map what it sees");
+  add_options(*command, *arguments);
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace ldso

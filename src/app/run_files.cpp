@@ -1,0 +1,74 @@
+#include "app/run_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "evaluation/trajectory_picture.h"
+#include "io/ply_file.h"
+#include "io/trajectory_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Error(path.string(), "cannot be written", "check the disk and the permissions");
+}
+
+std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
+  std::vector<PlyPoint> cloud;
+  cloud.reserve(points.size());
+  for (const WorldPoint& point : points) {
+    const Eigen::Vector3f p = point.position.cast<float>();
+    const auto intensity = static_cast<std::uint8_t>(std::lround(std::clamp(point.intensity, 0.0f, 255.0f)));
+    cloud.push_back({p.x(), p.y(), p.z(), intensity, point.idepth_stddev});
+  }
+  return cloud;
+}
+
+void write_picture(const fs::path& folder, const RunSummary& summary) {
+  const fs::path path = folder / "trajectory.svg";
+  fs::remove(path);
+  if (!summary.evaluation.result) return;
+  PictureOptions options;
+  options.title = summary.sequence_path.lexically_normal().string();
+  write_trajectory_picture(path, summary.trajectory, *summary.evaluation.truth, *summary.evaluation.result, options);
+}
+
+}  // namespace
+
+void prepare_output_folder(const fs::path& folder) {
+  const std::string remedy = "give a folder that can be written by -o";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw Error(folder.string(), "the output folder cannot be created" + (error ? " (" + error.message() + ")" : ""),
+                remedy);
+  }
+  const fs::path probe = folder / ".ldso_write_test";
+  std::ofstream file(probe);
+  file << "ldso\n";
+  file.close();
+  const bool writable = !file.fail();
+  fs::remove(probe, error);
+  if (!writable) throw Error(folder.string(), "the output folder cannot be written", remedy);
+}
+
+void write_run_files(const fs::path& folder, const RunSummary& summary, const Dataset& dataset, bool kitti) {
+  write_tum_trajectory(folder / "trajectory.txt", summary.trajectory);
+  write_tum_trajectory(folder / "keyframes.txt", summary.keyframes);
+  fs::remove(folder / "trajectory_kitti.txt");
+  if (kitti) write_kitti_poses(folder / "trajectory_kitti.txt", summary.trajectory);
+  write_ply(folder / "map.ply", ply_points(summary.points));
+  write_picture(folder, summary);
+  write_text(folder / "run.json", run_json(summary, dataset).dump(2) + "\n");
+}
+
+}  // namespace ldso

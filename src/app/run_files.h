@@ -1,0 +1,18 @@
+#pragma once
+// The folder that a run writes. Other tools rely on the names.
+
+#include <filesystem>
+
+#include "app/run_report.h"
+
+namespace ldso {
+
+/// Creates the folder and tries to write into it. Throws Error if that is impossible: better before a long run.
+void prepare_output_folder(const std::filesystem::path& folder);
+
+/// trajectory.txt, keyframes.txt, map.ply and run.json; trajectory_kitti.txt if wanted; trajectory.svg if the run was
+/// evaluated. Files of an earlier run that this one does not write are removed.
+void write_run_files(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset,
+                     bool kitti);
+
+}  // namespace ldso

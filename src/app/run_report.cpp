@@ -1,0 +1,206 @@
+#include "app/run_report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <unordered_set>
+#include <utility>
+
+#include "app/versions.h"
+#include "evaluation/report.h"
+#include "io/calibration_file.h"
+#include "io/settings_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof(text), pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in kB.
+}
+
+double frames_per_second(const SequenceRun& run) {
+  return run.seconds > 0 ? static_cast<double>(run.result.frames.size()) / run.seconds : 0;
+}
+
+/// Reasons that differ by their figures only are the same reason.
+std::string without_numbers(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') result += c;
+  }
+  return result;
+}
+
+Trajectory stamped(const std::vector<TimedPose>& poses) {
+  Trajectory trajectory;
+  trajectory.reserve(poses.size());
+  for (const TimedPose& pose : poses) trajectory.push_back({pose.timestamp, pose.T_world_camera});
+  return trajectory;
+}
+
+Json json_of(const PinholeIntrinsics& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
+  const Calibration& calibration = dataset.calibration();
+  const DatasetOptions& options = summary.dataset_options;
+  return {{"path", summary.sequence_path.string()},
+          {"format", dataset.format_name()},
+          {"frames", dataset.size()},
+          {"start", options.start},
+          {"end", options.end ? Json(*options.end) : Json()},
+          {"stride", options.stride},
+          {"reverse", options.reverse},
+          {"camera", describe(calibration.camera, calibration.rectification)},
+          {"calibration", calibration.description},
+          {"response_known", calibration.photometric.inverse_response.has_value()},
+          {"vignette_known", !calibration.photometric.vignette.empty()},
+          {"estimated_camera", json_of(summary.run.result.camera)}};
+}
+
+Json counts_json(const RunSummary& summary) {
+  const SlamResult& result = summary.run.result;
+  return {{"frames", result.frames.size()},        {"frames_with_pose", summary.trajectory.size()},
+          {"keyframes", summary.keyframes.size()}, {"points", summary.points.size()},
+          {"restarts", result.restarts},           {"skipped_frames", result.skipped}};
+}
+
+Json timing_json(const SequenceRun& run) {
+  Json stages = Json::object();
+  for (const auto& [name, stage] : run.result.stage_times) {
+    stages[name] = {{"calls", stage.calls},
+                    {"total_ms", stage.total_ms},
+                    {"mean_ms", stage.calls > 0 ? stage.total_ms / static_cast<double>(stage.calls) : 0.0},
+                    {"worst_ms", stage.worst_ms}};
+  }
+  return {{"wall_s", run.seconds}, {"frames_per_s", frames_per_second(run)}, {"stages", std::move(stages)}};
+}
+
+Json untracked_json(const RunSummary& summary) {
+  Json stretches = Json::array();
+  for (const UntrackedStretch& stretch : untracked_stretches(summary)) {
+    stretches.push_back({{"first", stretch.first}, {"last", stretch.last}, {"reason", stretch.reason}});
+  }
+  return stretches;
+}
+
+/// The frame with which the map was there; the frame that began it gets its pose afterwards.
+Json first_tracked_json(const SlamResult& result) {
+  for (const FrameRecord& frame : result.frames) {
+    if (frame.state == TrackingState::kTracked) return frame.frame_id;
+  }
+  return nullptr;
+}
+
+Json evaluation_json(const RunEvaluation& evaluation) {
+  if (evaluation.result) return Json::parse(result_json(*evaluation.result));
+  return {{"problem", evaluation.problem}};
+}
+
+std::string evaluation_text(const RunEvaluation& evaluation) {
+  if (!evaluation.truth) return "";
+  if (!evaluation.result) return "not evaluated: " + evaluation.problem + "\n";
+  const EvaluationResult& r = *evaluation.result;
+  return format("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
+                r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
+}
+
+}  // namespace
+
+void collect_results(RunSummary& summary) {
+  const SlamResult& result = summary.run.result;
+  const std::vector<TimedPose> poses = result.trajectory();
+  summary.trajectory = stamped(poses);
+  for (const TimedPose& pose : poses) summary.posed.push_back(pose.frame_id);
+  summary.keyframes = stamped(result.keyframe_trajectory());
+  summary.points = result.points();
+}
+
+std::vector<UntrackedStretch> untracked_stretches(const RunSummary& summary) {
+  const std::unordered_set<std::int64_t> posed(summary.posed.begin(), summary.posed.end());
+  std::vector<UntrackedStretch> stretches;
+  for (const FrameRecord& frame : summary.run.result.frames) {
+    if (posed.contains(frame.frame_id)) continue;
+    const std::string reason =
+        frame.state == TrackingState::kTracked ? "its pose or that of its keyframe is not finite" : frame.reason;
+    const bool continues = !stretches.empty() && stretches.back().last + 1 == frame.frame_id &&
+                           without_numbers(stretches.back().reason) == without_numbers(reason);
+    if (continues) {
+      stretches.back().last = frame.frame_id;
+      stretches.back().reason = reason;
+    } else {
+      stretches.push_back({frame.frame_id, frame.frame_id, reason});
+    }
+  }
+  return stretches;
+}
+
+RunEvaluation evaluate_run(const Trajectory& trajectory, const Dataset& dataset) {
+  RunEvaluation evaluation;
+  evaluation.truth = dataset.ground_truth();
+  if (!evaluation.truth) {
+    evaluation.problem = "the sequence carries no ground truth";
+    return evaluation;
+  }
+  if (trajectory.empty()) {
+    evaluation.problem = "there is no pose";
+    return evaluation;
+  }
+  try {
+    evaluation.result = evaluate_trajectory(trajectory, *evaluation.truth);
+  } catch (const Error& error) {
+    evaluation.problem = error.what();
+  }
+  return evaluation;
+}
+
+std::string summary_text(const RunSummary& summary) {
+  const SlamResult& result = summary.run.result;
+  std::string text =
+      format("frames         %zu, %zu with a pose, %d skipped, %d restarts\n", result.frames.size(),
+             summary.trajectory.size(), result.skipped, result.restarts) +
+      format("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
+      format("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
+             frames_per_second(summary.run), peak_memory_mb());
+  return text + evaluation_text(summary.evaluation);
+}
+
+Json run_json(const RunSummary& summary, const Dataset& dataset) {
+  const SequenceRun& run = summary.run;
+  Json json;
+  json["versions"] = versions_json();
+  json["sequence"] = sequence_json(summary, dataset);
+  json["settings"] = settings_to_json(summary.settings);
+  json["counts"] = counts_json(summary);
+  json["first_tracked_frame"] = first_tracked_json(run.result);
+  json["interrupted"] = run.stopped;
+  json["error"] = run.error.empty() ? Json() : Json(run.error);
+  json["timing"] = timing_json(run);
+  json["peak_memory_mb"] = peak_memory_mb();
+  json["untracked"] = untracked_json(summary);
+  json["warnings"] = summary.warnings;
+  json["evaluation"] = evaluation_json(summary.evaluation);
+  return json;
+}
+
+}  // namespace ldso

@@ -1,0 +1,101 @@
+#include "slam/pipeline.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "util/log.h"
+
+namespace ldso {
+namespace {
+
+/// Checks the settings before anything is built from them.
+const Settings& validated(const Settings& settings) {
+  settings.validate();
+  return settings;
+}
+
+void add_times(const StageTimes& from, std::map<std::string, StageTime>& to) {
+  for (const auto& [stage, entry] : from.entries()) to[stage] = {entry.calls, entry.total_ms, entry.worst_ms};
+}
+
+std::string frame_name(const FrameRecord& frame) { return "frame " + std::to_string(frame.frame_id); }
+
+}  // namespace
+
+Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, LogSink log)
+    : log_(std::move(log)),
+      preprocessor_(calibration, validated(settings).photometry),
+      pool_(settings.threads),
+      odometry_(preprocessor_.output_camera(), preprocessor_.photometrically_calibrated(), settings, pool_) {
+  result_.camera = preprocessor_.output_camera();
+}
+
+const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame) {
+  OdometryOutput output;
+  {
+    const StageTimer timer(times_, "odometry");
+    output = odometry_.process(frame);
+  }
+  std::move(output.finished.begin(), output.finished.end(), std::back_inserter(result_.keyframes));
+  log_changes(output.frame);
+  state_ = output.frame.state;
+  return record(std::move(output.frame));
+}
+
+const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const std::string& reason) {
+  FrameRecord frame;
+  frame.frame_id = frame_id;
+  frame.timestamp = timestamp;
+  frame.state = state_ == TrackingState::kInitializing ? TrackingState::kInitializing : TrackingState::kLost;
+  frame.reason = "skipped: " + reason;
+  ++result_.skipped;
+  log_to(log_, LogLevel::kWarning, frame_name(frame) + " is skipped: " + reason);
+  return record(std::move(frame));
+}
+
+const FrameRecord& Pipeline::record(FrameRecord frame) {
+  result_.frames.push_back(std::move(frame));
+  return result_.frames.back();
+}
+
+void Pipeline::log_changes(const FrameRecord& frame) {
+  if (odometry_.restarts() > restarts_) {
+    restarts_ = odometry_.restarts();
+    log_to(log_, LogLevel::kWarning, frame_name(frame) + ": " + frame.reason);
+  } else if (frame.state == TrackingState::kLost && state_ == TrackingState::kTracked) {
+    log_to(log_, LogLevel::kWarning, frame_name(frame) + " is lost: " + frame.reason);
+  } else if (frame.state == TrackingState::kTracked && state_ == TrackingState::kLost) {
+    log_to(log_, LogLevel::kInfo, frame_name(frame) + " is tracked again");
+  } else if (frame.state == TrackingState::kTracked && state_ == TrackingState::kInitializing) {
+    log_to(log_, LogLevel::kInfo, frame_name(frame) + ": the map is initialized");
+  }
+}
+
+std::optional<SE3d> Pipeline::T_world_camera() const {
+  if (result_.frames.empty() || result_.frames.back().state != TrackingState::kTracked) return std::nullopt;
+  const FrameRecord& frame = result_.frames.back();
+  for (const auto& keyframe : odometry_.window().keyframes) {
+    if (keyframe->id() == frame.keyframe_id) return keyframe->state.T_c_w().inverse() * frame.T_keyframe_frame;
+  }
+  return std::nullopt;
+}
+
+SlamResult Pipeline::finish() {
+  std::vector<KeyframeUpdate> last = odometry_.window_keyframes();
+  std::move(last.begin(), last.end(), std::back_inserter(result_.keyframes));
+  std::stable_sort(result_.keyframes.begin(), result_.keyframes.end(),
+                   [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
+  if (!odometry_.window().keyframes.empty()) {
+    const auto& camera = odometry_.window().camera;
+    result_.camera.fx = camera[0];
+    result_.camera.fy = camera[1];
+    result_.camera.cx = camera[2];
+    result_.camera.cy = camera[3];
+  }
+  result_.restarts = odometry_.restarts();
+  add_times(times_, result_.stage_times);
+  add_times(odometry_.times(), result_.stage_times);
+  return std::move(result_);
+}
+
+}  // namespace ldso

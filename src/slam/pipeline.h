@@ -1,0 +1,60 @@
+#pragma once
+
+// From prepared frames to a SlamResult: the odometry with the records it emits. What runs ahead on other threads
+// (decoding, preprocessing) is left to the caller.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "image/frame.h"
+#include "image/frame_preprocessor.h"
+#include "ldso/log.h"
+#include "ldso/settings.h"
+#include "ldso/slam.h"
+#include "odometry/odometry.h"
+#include "util/stopwatch.h"
+#include "util/thread_pool.h"
+
+namespace ldso {
+
+class Pipeline {
+ public:
+  /// Throws Error if the calibration or a setting makes no sense.
+  Pipeline(const Calibration& calibration, const Settings& settings, LogSink log);
+
+  /// May be used from other threads while the pipeline works.
+  const FramePreprocessor& preprocessor() const { return preprocessor_; }
+
+  /// Frames come in their order in time; ids must not repeat.
+  const FrameRecord& process(const std::shared_ptr<const PreparedFrame>& frame);
+
+  /// A frame that cannot be used: recorded with its reason, the next one is tracked as if it had not been.
+  const FrameRecord& skip(std::int64_t frame_id, double timestamp, const std::string& reason);
+
+  /// Pose of the newest frame, if it is tracked.
+  std::optional<SE3d> T_world_camera() const;
+
+  int keyframes() const { return odometry_.keyframes(); }
+  /// For stages outside of the pipeline whose time belongs to the result.
+  StageTimes& times() { return times_; }
+
+  /// To be called once, at the end.
+  SlamResult finish();
+
+ private:
+  const FrameRecord& record(FrameRecord frame);
+  void log_changes(const FrameRecord& frame);
+
+  LogSink log_;
+  FramePreprocessor preprocessor_;
+  ThreadPool pool_;
+  Odometry odometry_;
+  StageTimes times_;
+  SlamResult result_;
+  TrackingState state_ = TrackingState::kInitializing;  ///< Of the newest frame that was not skipped.
+  int restarts_ = 0;
+};
+
+}  // namespace ldso
