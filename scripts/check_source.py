@@ -77,6 +77,10 @@ def room_of(name):
     return max((r for r in ROOMS if parts[:-1][: r.count("/") + 1] == r.split("/")), key=len, default=None)
 
 
+def is_test(path):
+    return path.stem.endswith("_test") or path.stem.startswith("test_")
+
+
 def may_include(room, target):
     other = room_of(target)
     if other == room or other in ROOMS[room]:
@@ -96,6 +100,8 @@ def check_rooms(path, room):
                 problem(path, line, f"there is no include/{name}")
         elif not (ROOT / "src" / name).exists():
             problem(path, line, f'there is no src/{name}: includes are relative to src/')
+        elif is_test(path) and name.split("/")[0] == room.split("/")[0]:
+            pass  # the folders of a room share test helpers
         elif not may_include(room, name):
             problem(path, line, f"{room} must not include {name}: it lies above it (scripts/check_source.py)")
 
@@ -219,7 +225,7 @@ def main():
             problem(path, 1, "lies in no room that scripts/check_source.py knows")
             continue
         check_rooms(path, room)
-        if not path.stem.endswith("_test") and not path.stem.startswith("test_"):
+        if not is_test(path):
             check_libraries(path, room)
             if room != "app":
                 check_habits(path, LIBRARY_HABITS)
