@@ -29,6 +29,8 @@ const std::map<std::string, SettingRange, std::less<>>& ranges() {
       {"photometry.overexposed", {1, 256}},
       {"photometry.prior_a", {0, kHuge}},
       {"photometry.prior_b", {0, kHuge}},
+      {"photometry.unknown_prior_a", {0, kHuge}},
+      {"photometry.unknown_prior_b", {0, kHuge}},
       {"window.iterations", {1, 100}},
       {"window.marginalization_weight", {0, 1}},
       {"window.focal_prior", {0, kHuge}},

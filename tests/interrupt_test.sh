@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# interrupt_test.sh PROGRAM SEQUENCE WORK SIGNAL: a run that is ended by Ctrl-C or `kill` saves what there is.
+LDSO=$1 SEQUENCE=$2 WORK=$3/interrupt_$4 SIGNAL=$4
+rm -rf "$WORK" && mkdir -p "$WORK"
+source "$(dirname "${BASH_SOURCE[0]}")/test_tools.sh"
+out=$WORK/out
+
+# So long that the run cannot be over before the signal comes.
+long=$WORK/sequence
+repeat_sequence "$SEQUENCE" "$long" 200
+total=$(find "$long/images" -name '*.*' | wc -l)
+
+# Job control, so that SIGINT is not ignored in the background.
+set -m
+"$LDSO" run "$long" -o "$out" >"$WORK/log" 2>&1 &
+pid=$!
+set +m
+for ((i = 0; i < 600; i++)); do
+  grep -q '^frame 100/' "$WORK/log" && break
+  kill -0 "$pid" 2>/dev/null || fail "the run ended by itself"
+  sleep 0.1
+done
+grep -q '^frame 100/' "$WORK/log" || fail "100 frames took more than 60 s"
+kill -s "$SIGNAL" "$pid"
+status=0
+wait "$pid" || status=$?
+
+((status == 130)) || fail "the exit code is $status, expected is 130"
+expect_output '^warning: interrupted'
+expect_json "$out/run.json" "['interrupted']" True
+frames=$(json "$out/run.json" "['counts']['frames']")
+expect_true "the run ended early" "100 <= $frames < $total"
+expect_true "the trajectory is saved" "$(poses "$out/trajectory.txt") > 50"
+expect_json "$out/run.json" "['counts']['frames_with_pose']" "$(poses "$out/trajectory.txt")"
+[[ -s $out/map.ply && -s $out/keyframes.txt ]] || fail "map.ply or keyframes.txt is missing"
