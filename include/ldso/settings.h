@@ -40,9 +40,13 @@ struct PhotometrySettings {
   bool use_vignette = true;        ///< Undo the vignette if it is known.
   bool use_exposure = true;        ///< Use the exposure times if they are known.
   double overexposed = 253.0;      ///< Raw grey levels from here on carry no information.
-  /// Prior precision on log brightness factor a and offset b if the photometric calibration is known; 0 if not [D 4].
-  double prior_a = 1e10;
+  /// Precision of the priors that draw each frame's log brightness factor a and offset b to 0, if response and exposure
+  /// are known. Much weaker than published: images are never calibrated so well that holding a and b costs nothing
+  /// (measured: a room's ATE is 4 times smaller than with 1e10), yet free ones random-walk and take the map along.
+  double prior_a = 1e6;
   double prior_b = 1e2;
+  double unknown_prior_a = 1e3;    ///< The same if response or exposure is unknown.
+  double unknown_prior_b = 1e1;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -52,6 +56,8 @@ struct PhotometrySettings {
     visit("overexposed", s.overexposed);
     visit("prior_a", s.prior_a);
     visit("prior_b", s.prior_b);
+    visit("unknown_prior_a", s.unknown_prior_a);
+    visit("unknown_prior_b", s.unknown_prior_b);
   }
 };
 
@@ -59,8 +65,11 @@ struct PhotometrySettings {
 struct WindowSettings {
   int iterations = 6;                   ///< At most, for each keyframe.
   double marginalization_weight = 0.25; ///< Marginalized residuals are correlated: their information is scaled.
-  double focal_prior = 2e6;             ///< Precision of the given focal lengths [1 / px^2, in units of squared grey levels].
-  double center_prior = 2e6;            ///< Precision of the given principal point, likewise.
+  /// Precision of the given focal lengths [1 / px^2, in units of squared grey levels]. Weak: 1 % of the focal length is
+  /// worth 30 % of scale drift in driving, and windows determine it well.
+  double focal_prior = 1e3;
+  /// Precision of the given principal point, likewise. Strong: a driving camera cannot tell it from its own pitch.
+  double center_prior = 2e6;
   double idepth_prior = 2500;           ///< Precision of the initializer's inverse depths (their mean is 1).
   double least_idepth_hessian = 50;     ///< Weaker points are dropped, not marginalized.
   int active_points = 2000;             ///< Wanted number of points in the window.
@@ -136,7 +145,11 @@ struct TracingSettings {
 /// Start of the map from two views. Thresholds are on what is measured: displacements in pixels of level 0.
 struct InitializerSettings {
   int points = 1500;                  ///< Points of the first frame that are followed.
-  double min_parallax = 3.0;          ///< Median displacement by the translation alone [px].
+  double min_parallax = 2.0;          ///< Least median displacement by the translation alone [px], and
+  double min_parallax_angle = 0.8;    ///< its angle [degrees].
+  double good_parallax_angle = 1.5;   ///< Waited for [degrees] while at least
+  double plenty_tracked = 0.6;        ///< this share of the points is found. Both angles sink in proportion after
+  int patience = 10;                  ///< so many frames: a slow camera may start with less than a fast one.
   double max_cost_ratio = 0.5;        ///< Misfit with translation over misfit of a camera that only turns.
   double max_direction_stddev = 3.0;  ///< Of the direction of motion [degrees].
   double min_inliers = 0.6;           ///< Share of the displacements that one motion has to explain.
@@ -144,14 +157,18 @@ struct InitializerSettings {
   int max_ambiguous = 10;             ///< frames after which the best is taken all the same.
   double max_residual = 14.0;         ///< RMS of a good point's residuals [grey levels].
   double max_idepth_stddev = 0.3;     ///< Of a good point, relative to its inverse depth.
-  double min_good = 0.4;              ///< Share of good points.
-  double min_tracked = 0.35;          ///< Share of points still found; below it, a new first frame is taken.
+  double min_good = 0.15;             ///< Share of good points.
+  double min_tracked = 0.25;          ///< Share of points still found; below it, a new first frame is taken.
   int max_frames = 60;                ///< Frames after which a new first frame is taken if anything moves.
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
     visit("points", s.points);
     visit("min_parallax", s.min_parallax);
+    visit("min_parallax_angle", s.min_parallax_angle);
+    visit("good_parallax_angle", s.good_parallax_angle);
+    visit("plenty_tracked", s.plenty_tracked);
+    visit("patience", s.patience);
     visit("max_cost_ratio", s.max_cost_ratio);
     visit("max_direction_stddev", s.max_direction_stddev);
     visit("min_inliers", s.min_inliers);

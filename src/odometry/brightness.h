@@ -12,6 +12,12 @@ struct Brightness {
   double b = 0;  ///< Offset [grey levels].
 };
 
+/// Precision of zero-mean priors on a and b; 0: free.
+struct BrightnessPrior {
+  double a = 0;
+  double b = 0;
+};
+
 /// I_target = factor * I_host + offset.
 struct BrightnessTransfer {
   double factor = 1;

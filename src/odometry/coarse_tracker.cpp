@@ -30,6 +30,7 @@ using Vector8 = Eigen::Matrix<double, kAlignmentDof, 1>;
 struct CoarseTracker::Estimate {
   SE3d T_new_ref;
   Brightness brightness;
+  BrightnessPrior prior;
 };
 
 struct CoarseTracker::LevelSystem {
@@ -89,10 +90,10 @@ CoarseTracker::LevelSystem CoarseTracker::evaluate(const PreparedFrame& frame, i
   }
   system.H = Matrix8(system.H.selfadjointView<Eigen::Upper>());
   // Priors hold for all points together, as they do for a keyframe of the window.
-  system.H(6, 6) += prior_a_;
-  system.H(7, 7) += prior_b_;
-  system.b[6] += prior_a_ * estimate.brightness.a;
-  system.b[7] += prior_b_ * estimate.brightness.b;
+  system.H(6, 6) += estimate.prior.a;
+  system.H(7, 7) += estimate.prior.b;
+  system.b[6] += estimate.prior.a * estimate.brightness.a;
+  system.b[7] += estimate.prior.b * estimate.brightness.b;
   return system;
 }
 
@@ -112,7 +113,8 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
     const Vector8 step = -scale.cwiseProduct((scale.asDiagonal() * H * scale.asDiagonal()).ldlt().solve(scale.cwiseProduct(system.b)));
     if (!step.allFinite()) break;
     const Estimate tried{SE3d::exp(step.head<6>()) * estimate.T_new_ref,
-                         {estimate.brightness.a + step[6], estimate.brightness.b + step[7]}};
+                         {estimate.brightness.a + step[6], estimate.brightness.b + step[7]},
+                         estimate.prior};
     const LevelSystem next = evaluate(frame, level, tried, cutoff);
     if (next.mean() < system.mean()) {
       estimate = tried;
@@ -128,8 +130,8 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
 }
 
 AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
-                                     const std::vector<double>& limits) const {
-  Estimate estimate{T_new_ref, brightness};
+                                     const BrightnessPrior& prior, const std::vector<double>& limits) const {
+  Estimate estimate{T_new_ref, brightness, prior};
   AlignmentResult result;
   const int levels = static_cast<int>(map_.levels.size());
   result.level_rmse.assign(levels, std::numeric_limits<double>::quiet_NaN());

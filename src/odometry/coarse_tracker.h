@@ -25,16 +25,15 @@ struct AlignmentResult {
 
 class CoarseTracker {
  public:
-  CoarseTracker(const TrackingSettings& settings, double prior_a, double prior_b, ThreadPool& pool)
-      : settings_(settings), prior_a_(prior_a), prior_b_(prior_b), pool_(pool) {}
+  CoarseTracker(const TrackingSettings& settings, ThreadPool& pool) : settings_(settings), pool_(pool) {}
 
   /// From now on frames are aligned to the newest keyframe of the window.
   void set_reference(const Window& window);
 
-  /// Aligns `frame` starting from one hypothesis. Gives up at the first level that is worse than `limits` (root mean
+  /// Aligns `frame` starting from one hypothesis; `prior` holds its brightness. Gives up at the first level that is worse than `limits` (root mean
   /// energies by level, finest first; empty: no limits) times the setting `good_ratio`.
   AlignmentResult align(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
-                        const std::vector<double>& limits) const;
+                        const BrightnessPrior& prior, const std::vector<double>& limits) const;
 
   /// Pixel motion and brightness change of an aligned frame.
   FrameMotion motion(const PreparedFrame& frame, const AlignmentResult& result) const;
@@ -48,7 +47,6 @@ class CoarseTracker {
   LevelSystem align_level(const PreparedFrame& frame, int level, Estimate& estimate) const;
 
   TrackingSettings settings_;
-  double prior_a_, prior_b_;  ///< Precision of priors on the brightness (0: free).
   ThreadPool& pool_;
   CoarseDepthMap map_;
   PinholeIntrinsics camera_;

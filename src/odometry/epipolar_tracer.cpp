@@ -12,8 +12,10 @@ namespace ldso {
 namespace {
 
 constexpr int kMostPositions = 100;
-/// Pixels that the pattern and its interpolation need around a position.
-constexpr float kBorder = 5;
+/// Farthest that a turned pattern may reach from its centre [px].
+constexpr float kPatternReach = 3.5f;
+/// Searched segments stay that far inside the image: the last position may lie one pixel beyond their end.
+constexpr float kBorder = kPatternReach + 2.5f;
 /// Intervals shorter than this need no search [px].
 constexpr float kShortInterval = 1.5f;
 /// Second-best matches nearer than this to the best one do not count [px].
@@ -130,6 +132,7 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
   match.energy = std::numeric_limits<float>::infinity();
   float last_step = 0, gain = 1;
   for (int iteration = 0; iteration < kRefinements; ++iteration) {
+    if (!is_interpolable(image, current.x, current.y, kPatternReach)) break;
     float H = 1, b = 0, energy = 0;
     for (int i = 0; i < kPatternSize; ++i) {
       const float x = current.x + pattern.offset_x[i], y = current.y + pattern.offset_y[i];
@@ -172,7 +175,7 @@ TraceStatus EpipolarTracer::trace(ImmaturePoint& point, const PatternWarp& warp)
     segment.pattern.offset_y[i] = warp.KRKi[3] * dx + warp.KRKi[4] * dy;
     segment.pattern.intensity[i] = warp.factor * point.patch.intensity[i] + warp.offset;
     // A view that turned so far that the pattern leaves its margin cannot be compared pixel by pixel.
-    if (std::fabs(segment.pattern.offset_x[i]) > kBorder - 1.5f || std::fabs(segment.pattern.offset_y[i]) > kBorder - 1.5f) {
+    if (!(std::fabs(segment.pattern.offset_x[i]) <= kPatternReach && std::fabs(segment.pattern.offset_y[i]) <= kPatternReach)) {
       return point.status = TraceStatus::kOutOfView;
     }
   }

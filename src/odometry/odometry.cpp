@@ -19,10 +19,6 @@ constexpr int kMostLostFrames = 20;
 constexpr int kFirstIterations = 20;
 constexpr int kSecondIterations = 15;
 
-BrightnessPrior tracking_prior(bool calibrated, const PhotometrySettings& settings) {
-  return calibrated ? BrightnessPrior{settings.prior_a, settings.prior_b} : BrightnessPrior{};
-}
-
 }  // namespace
 
 Odometry::Odometry(const PinholeIntrinsics& camera, bool calibrated, const Settings& settings, ThreadPool& pool)
@@ -31,10 +27,10 @@ Odometry::Odometry(const PinholeIntrinsics& camera, bool calibrated, const Setti
       settings_(settings),
       pool_(pool),
       initializer_(std::make_unique<Initializer>(camera, settings.initializer, settings.selection, pool,
-                                                 tracking_prior(calibrated, settings.photometry))),
+                                                 calibrated ? BrightnessPrior{settings.photometry.prior_a, settings.photometry.prior_b}
+                                                            : BrightnessPrior{})),
       selector_(make_point_selector(settings.selection)),
-      tracker_(settings.tracking, calibrated ? settings.photometry.prior_a : 0.0,
-               calibrated ? settings.photometry.prior_b : 0.0, pool),
+      tracker_(settings.tracking, pool),
       tracer_(settings.tracing, camera.width, camera.height),
       activator_(settings.tracing, settings.window, pool),
       optimizer_(settings.window, pool),
@@ -56,6 +52,13 @@ std::vector<KeyframeUpdate> Odometry::window_keyframes() const {
   std::vector<KeyframeUpdate> updates;
   for (const auto& keyframe : window_.keyframes) updates.push_back(make_update(*keyframe, true));
   return updates;
+}
+
+BrightnessPrior Odometry::brightness_prior(const PreparedFrame& frame) const {
+  const PhotometrySettings& photometry = settings_.photometry;
+  const bool known = calibrated_ && frame.exposure_known;
+  return known ? BrightnessPrior{photometry.prior_a, photometry.prior_b}
+               : BrightnessPrior{photometry.unknown_prior_a, photometry.unknown_prior_b};
 }
 
 void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output) {
@@ -120,7 +123,7 @@ AlignmentResult Odometry::align(const PreparedFrame& frame) {
   for (const SE3d& pose : motion_hypotheses(T_last_ref_, T_last_previous_)) {
     // Only what beats the best so far is of interest.
     const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
-    const AlignmentResult result = tracker_.align(frame, pose, last_brightness_, limits);
+    const AlignmentResult result = tracker_.align(frame, pose, last_brightness_, brightness_prior(frame), limits);
     if (!result.good || !std::isfinite(result.rmse()) || result.rmse() > settings_.tracking.lost_rmse) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
     const bool as_good_as_ever = last_rmse_.empty() || best.rmse() < settings_.tracking.good_ratio * last_rmse_.front();
@@ -211,12 +214,9 @@ Keyframe& Odometry::add_keyframe(const std::shared_ptr<const PreparedFrame>& fra
   auto keyframe = std::make_unique<Keyframe>();
   keyframe->frame = frame;
   keyframe->state = {T_c_w, brightness, FrameVector::Zero()};
-  if (calibrated_ && frame->exposure_known) {
-    keyframe->prior[6] = settings_.photometry.prior_a;
-    keyframe->prior[7] = settings_.photometry.prior_b;
-    keyframe->prior_mean[6] = -brightness.a;
-    keyframe->prior_mean[7] = -brightness.b;
-  }
+  const BrightnessPrior prior = brightness_prior(*frame);
+  keyframe->prior.tail<2>() << prior.a, prior.b;
+  keyframe->prior_mean.tail<2>() << -brightness.a, -brightness.b;
   for (auto& host : window_.keyframes) {
     for (ActivePoint& point : host->points) {
       point.newest_states = {ResidualState::kInlier, point.newest_states[0]};

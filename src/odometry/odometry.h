@@ -50,6 +50,7 @@ class Odometry {
                     const std::shared_ptr<const PreparedFrame>& current);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   AlignmentResult align(const PreparedFrame& frame);
+  BrightnessPrior brightness_prior(const PreparedFrame& frame) const;
   void handle_loss(const std::string& reason, OdometryOutput& output);
   void restart(const std::string& reason, OdometryOutput& output);
   void trace_immature(const PreparedFrame& frame, const SE3d& T_c_w, const Brightness& brightness);

@@ -18,8 +18,11 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPositionFloor = 0.2;  // Least standard deviation of a displacement [px]: what patches really reach.
 constexpr double kInlier = 3.0;         // [standard deviations]
 constexpr std::size_t kMinMatches = 40;
-constexpr double kMinDepth = 0.05;      // In the current frame over that in the first.
-constexpr double kStill = 1.0;          // Median displacement below which nothing is moving at all [px].
+constexpr double kMinDepth = 0.05;  // In the current frame over that in the first.
+// A brightness that was that wrong has biased the displacements: they are measured again.
+constexpr double kBrightnessFactorError = 0.03;
+constexpr double kBrightnessOffsetError = 1.0;  // [grey levels]
+constexpr double kStill = 1.0;                  // Median displacement below which nothing is moving at all [px].
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -103,8 +106,7 @@ void Initializer::set_reference(std::shared_ptr<const PreparedFrame> frame) {
   reset();
   first_ = std::move(frame);
   newest_ = first_;
-  const auto selected =
-      make_point_selector(selection_)->select(first_->pyramid, first_->id, settings_.points);
+  const auto selected = make_point_selector(selection_)->select(first_->pyramid, first_->id, settings_.points);
   for (const SelectedPixel& pixel : selected) {
     pixels_.emplace_back(pixel.x, pixel.y);
     tracks_.push_back({ray_of(camera_, pixels_.back()), pixels_.back(), pixels_.back(), kUnknown, pixel.is_corner});
@@ -113,8 +115,9 @@ void Initializer::set_reference(std::shared_ptr<const PreparedFrame> frame) {
   T_newest_first_ = SE3d();
   T_previous_first_ = SE3d();
   moving_ = false;
-  gain_ = 1;
+  brightness_ = {};
   frames_ = 0;
+  interim_.clear();
 }
 
 Initializer::Status Initializer::wait(std::string reason) {
@@ -151,11 +154,12 @@ Initializer::Status Initializer::judge(const std::shared_ptr<const PreparedFrame
   if (found < kMinMatches || share < settings_.min_tracked) {
     return restart(frame, text("only %.0f %% of the first frame's points are still seen", 100 * share));
   }
+  tracked_ = share;
   remember(matches);
   newest_ = frame;
-  const Motion motion = fit(matches);
+  const Motion motion = fit(*frame, matches);
   std::string complaint = objection(motion);
-  if (complaint.empty()) complaint = refine(*frame, motion);
+  if (complaint.empty()) complaint = refine(*frame);
   if (complaint.empty()) {
     reason_.clear();
     return Status::kReady;
@@ -186,60 +190,90 @@ PatchPrediction Initializer::predict(const Track& track, const SO3d& step, const
   return prediction;
 }
 
-std::vector<PatchMatch> Initializer::track(const PreparedFrame& frame) {
-  const SO3d step = align_rotation(*newest_, frame, camera_);
+std::vector<PatchPrediction> Initializer::predict_all(const SO3d& step) const {
   const SE3d T_predicted = predicted_pose(step);
   std::vector<PatchPrediction> predictions;
   predictions.reserve(tracks_.size());
   for (const Track& track : tracks_) predictions.push_back(predict(track, step, T_predicted));
-  return tracker_->track(frame, predictions, gain_, pool_);
+  return predictions;
+}
+
+std::vector<PatchMatch> Initializer::track(const PreparedFrame& frame) {
+  const SO3d last_step = T_newest_first_.rotation() * T_previous_first_.rotation().inverse();
+  const RotationAlignment step = align_rotation(*newest_, frame, camera_, last_step);
+  std::vector<PatchPrediction> predictions = predict_all(step.R_to_from);
+  const double factor = std::clamp(step.brightness.factor, 0.5, 2.0);
+  brightness_ = {factor * brightness_.factor, factor * brightness_.offset + step.brightness.offset};
+  std::vector<PatchMatch> matches = tracker_->track(frame, predictions, brightness_, pool_);
+  const BrightnessTransfer measured = brightness_of(matches);
+  const bool as_expected = std::abs(measured.factor - brightness_.factor) < kBrightnessFactorError &&
+                           std::abs(measured.offset - brightness_.offset) < kBrightnessOffsetError;
+  brightness_ = measured;
+  if (as_expected) return matches;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i].found) predictions[i].starts = {matches[i].position};
+  }
+  matches = tracker_->track(frame, predictions, brightness_, pool_);
+  brightness_ = brightness_of(matches);
+  return matches;
+}
+
+BrightnessTransfer Initializer::brightness_of(const std::vector<PatchMatch>& matches) {
+  std::vector<double> gains;
+  std::vector<double> offsets;
+  for (const PatchMatch& match : matches) {
+    if (match.found) gains.push_back(match.gain);
+  }
+  if (gains.empty()) return {};
+  const double gain = std::clamp(median(std::move(gains)), 0.2, 5.0);
+  for (const PatchMatch& match : matches) {
+    if (match.found) offsets.push_back(match.mean - gain * match.reference_mean);
+  }
+  return {gain, median(std::move(offsets))};
 }
 
 void Initializer::remember(const std::vector<PatchMatch>& matches) {
-  std::vector<double> gains;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (!matches[i].found) continue;
-    tracks_[i].position = matches[i].position;
-    gains.push_back(matches[i].gain);
+    if (matches[i].found) tracks_[i].position = matches[i].position;
   }
-  gain_ = std::clamp(median(std::move(gains)), 0.2, 5.0);
 }
 
-std::vector<TwoViewMatch> Initializer::two_view_matches(const std::vector<PatchMatch>& matches) const {
-  std::vector<TwoViewMatch> result;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (!matches[i].found) continue;
-    const Eigen::Matrix2d covariance =
-        matches[i].covariance + kPositionFloor * kPositionFloor * Eigen::Matrix2d::Identity();
-    const Eigen::Matrix2d whitening = covariance.inverse().llt().matrixU();
-    result.push_back({tracks_[i].ray, matches[i].position, whitening});
-  }
-  return result;
+TwoViewMatch Initializer::two_view_match(std::size_t index, const PatchMatch& match) const {
+  const Eigen::Matrix2d covariance = match.covariance + kPositionFloor * kPositionFloor * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d whitening = covariance.inverse().llt().matrixU();
+  return {tracks_[index].ray, match.position, whitening};
 }
 
-Initializer::Motion Initializer::fit(const std::vector<PatchMatch>& matches) {
+Initializer::Motion Initializer::fit(const PreparedFrame& frame, const std::vector<PatchMatch>& matches) {
   Motion result;
+  std::vector<TwoViewMatch> pairs;
   std::vector<double> flow;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (!matches[i].found) continue;
     result.indices.push_back(static_cast<int>(i));
+    pairs.push_back(two_view_match(i, matches[i]));
     flow.push_back((matches[i].position - tracks_[i].pixel).norm());
   }
   result.median_flow = median(std::move(flow));
-  const std::vector<TwoViewMatch> pairs = two_view_matches(matches);
   result.rotation = fit_rotation(pairs, camera_, T_newest_first_.rotation());
   T_previous_first_ = T_newest_first_;
   T_newest_first_ = result.rotation.T_second_first;
   moving_ = false;
-  if (result.median_flow < kStill) return result;
+  if (result.median_flow >= kStill) fit_motion_with_translation(pairs, result);
+  // Standing still may last for hours.
+  if (interim_.size() >= static_cast<std::size_t>(settings_.max_frames)) interim_.erase(interim_.begin());
+  interim_.push_back({frame.id, frame.timestamp, result.indices, std::move(pairs)});
+  return result;
+}
 
+void Initializer::fit_motion_with_translation(const std::vector<TwoViewMatch>& pairs, Motion& result) {
   result.fitted = true;
   std::optional<SE3d> guess;
   if (T_previous_first_.translation().norm() > 0) guess = T_previous_first_;
   result.motion = fit_motion(pairs, camera_, result.rotation.T_second_first.rotation(), guess, pool_);
+  const SE3d& T = result.motion.T_second_first;
   std::vector<double> parallax;
   std::vector<double> idepths;
-  const SE3d& T = result.motion.T_second_first;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (result.motion.error[k] > kInlier) continue;
     const Eigen::Vector3d q0 = T.rotation() * pairs[k].ray;
@@ -251,14 +285,26 @@ Initializer::Motion Initializer::fit(const std::vector<PatchMatch>& matches) {
   result.inliers = static_cast<double>(idepths.size()) / static_cast<double>(pairs.size());
   result.median_parallax = median(std::move(parallax));
   const double scale = median(std::move(idepths));
-  if (result.inliers < settings_.min_inliers || scale < 1e-4) return result;
+  if (result.inliers < settings_.min_inliers || scale < 1e-4) return;
   T_newest_first_ = SE3d(T.rotation(), T.translation() * scale);
   moving_ = T_previous_first_.translation().norm() > 0 || frames_ == 1;
   for (Track& track : tracks_) track.idepth = kUnknown;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (result.motion.error[k] <= kInlier) tracks_[result.indices[k]].idepth = result.motion.idepth[k] / scale;
   }
-  return result;
+}
+
+double Initializer::wanted_parallax() const {
+  const double relax = std::min(1.0, static_cast<double>(settings_.patience) / std::max(1, frames_));
+  // The systematic errors of two views (interpolation, rolling shutter) shrink with the parallax.
+  const bool plenty = tracked_ >= settings_.plenty_tracked;
+  const double degrees = plenty ? settings_.good_parallax_angle : settings_.min_parallax_angle;
+  return std::max(settings_.min_parallax, relax * degrees * M_PI / 180 * std::sqrt(camera_.fx * camera_.fy));
+}
+
+std::string Initializer::too_little_parallax(double parallax) const {
+  return text("waiting for parallax: camera has not moved enough (median parallax %.1f px, wanted %.1f px)", parallax,
+              wanted_parallax());
 }
 
 std::string Initializer::objection(const Motion& motion) const {
@@ -269,35 +315,26 @@ std::string Initializer::objection(const Motion& motion) const {
     return text("waiting: no camera motion explains the images (%.0f %% of the points agree)", 100 * motion.inliers);
   }
   const double ratio = motion.motion.cost / std::max(1e-9, motion.rotation.cost);
-  if (motion.median_parallax < settings_.min_parallax || ratio > settings_.max_cost_ratio) {
-    return text("waiting for parallax: camera has only turned (median parallax %.1f px of %.1f px displacement)",
-                motion.median_parallax, motion.median_flow);
+  if (ratio > settings_.max_cost_ratio) {
+    return text("waiting for parallax: camera has only turned (median displacement %.1f px)", motion.median_flow);
   }
+  if (motion.median_parallax < wanted_parallax()) return too_little_parallax(motion.median_parallax);
   const double stddev = motion.motion.direction_stddev * 180 / M_PI;
   if (stddev > settings_.max_direction_stddev) {
     return text("waiting: direction of motion is uncertain by %.1f degrees", stddev);
   }
-  if (motion.motion.runner_up_cost < settings_.min_runner_up * motion.motion.cost && frames_ < settings_.max_ambiguous) {
-    return text("waiting: two motions explain the images equally well (costs %.0f and %.0f)", motion.motion.cost,
-                motion.motion.runner_up_cost);
+  if (motion.motion.runner_up_ratio < settings_.min_runner_up && frames_ < settings_.max_ambiguous) {
+    return text("waiting: two motions explain the images about equally well (misfits 1 : %.2f)",
+                motion.motion.runner_up_ratio);
   }
   return {};
 }
 
-JointState Initializer::joint_start(const Motion& motion) {
+JointState Initializer::joint_start() {
   JointState start;
   start.T_second_first = T_newest_first_;
-  start.a = std::log(gain_ * first_->exposure_ms / newest_->exposure_ms);
-  std::vector<double> first_levels;
-  std::vector<double> offsets;
-  for (const int i : motion.indices) {
-    const Texel& from = first_->pyramid.levels[0](static_cast<int>(tracks_[i].pixel.x()),
-                                                  static_cast<int>(tracks_[i].pixel.y()));
-    const Eigen::Vector2d& p = tracks_[i].position;
-    const Texel& to = newest_->pyramid.levels[0](static_cast<int>(p.x() + 0.5), static_cast<int>(p.y() + 0.5));
-    offsets.push_back(to.intensity - gain_ * from.intensity);
-  }
-  start.b = median(std::move(offsets));
+  start.a = std::log(brightness_.factor * first_->exposure_ms / newest_->exposure_ms);
+  start.b = brightness_.offset;
   for (const Track& track : tracks_) start.idepth.push_back(track.idepth);
   // Points without a fit start like their neighbours.
   const std::vector<double> around = joint_->neighbour_medians(start.idepth);
@@ -307,10 +344,10 @@ JointState Initializer::joint_start(const Motion& motion) {
   return start;
 }
 
-std::string Initializer::refine(const PreparedFrame& frame, const Motion& motion) {
+std::string Initializer::refine(const PreparedFrame& frame) {
   if (!joint_) joint_ = std::make_unique<JointAlignment>(*first_, pixels_, camera_, pool_);
   const bool calibrated = first_->exposure_known && frame.exposure_known;
-  const JointFit fit = joint_->align(frame, joint_start(motion), calibrated ? prior_ : BrightnessPrior{}, 1);
+  const JointFit fit = joint_->align(frame, joint_start(), calibrated ? prior_ : BrightnessPrior{}, 1);
   return publish(frame, fit);
 }
 
@@ -334,12 +371,11 @@ std::string Initializer::publish(const PreparedFrame& frame, const JointFit& fit
     return text("waiting: inverse depths of only %.0f %% of the points are determined", 100 * share);
   }
   const double parallax_px = median(std::move(parallax));
-  if (parallax_px < settings_.min_parallax) return text("waiting for parallax: %.1f px so far", parallax_px);
+  if (parallax_px < wanted_parallax()) return too_little_parallax(parallax_px);
   const double mean = sum / good;
   result_.first_frame_id = first_->id;
   result_.current_frame_id = frame.id;
-  result_.T_current_first =
-      SE3d(fit.state.T_second_first.rotation(), fit.state.T_second_first.translation() * mean);
+  result_.T_current_first = SE3d(fit.state.T_second_first.rotation(), fit.state.T_second_first.translation() * mean);
   result_.a = fit.state.a;
   result_.b = fit.state.b;
   result_.median_parallax = parallax_px;
@@ -351,7 +387,28 @@ std::string Initializer::publish(const PreparedFrame& frame, const JointFit& fit
                               static_cast<float>(fit.points[i].idepth_variance / (mean * mean)), is_good[i],
                               tracks_[i].is_corner});
   }
+  result_.interim = interim_poses();
   return {};
+}
+
+std::vector<InterimPose> Initializer::interim_poses() const {
+  std::vector<InterimPose> poses;
+  SE3d start;
+  for (std::size_t k = 0; k + 1 < interim_.size(); ++k) {
+    const InterimFrame& frame = interim_[k];
+    std::vector<TwoViewMatch> matches;
+    std::vector<double> idepth;
+    for (std::size_t i = 0; i < frame.indices.size(); ++i) {
+      const InitialPoint& point = result_.points[static_cast<std::size_t>(frame.indices[i])];
+      if (!point.is_good) continue;
+      matches.push_back(frame.matches[i]);
+      idepth.push_back(point.idepth);
+    }
+    if (matches.size() < kMinMatches) continue;
+    start = fit_pose(matches, idepth, camera_, start);
+    poses.push_back({frame.id, frame.timestamp, start});
+  }
+  return poses;
 }
 
 }  // namespace ldso

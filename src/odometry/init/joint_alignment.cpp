@@ -17,10 +17,11 @@ namespace {
 
 constexpr int kChunk = 64;
 constexpr int kIterations = 10;
-constexpr double kOutlier = 14.0;      // RMS of a point's residuals [grey levels]: beyond it, it pulls no more.
-constexpr double kPriorNoise = 5.0;    // [grey levels], and
-constexpr double kPriorSpread = 0.5;   // an inverse depth is within this factor of its neighbours' median.
-constexpr double kMinRatio = 0.05;     // Least depth in the second view over depth in the first.
+constexpr double kOutlierFactor = 2.5;  // A point whose RMS residual exceeds that of the median point so many
+constexpr double kMinOutlier = 5.0;     // times, and this [grey levels], pulls no more: it straddles a step in depth.
+constexpr double kPriorNoise = 5.0;     // [grey levels], and
+constexpr double kPriorSpread = 0.5;    // an inverse depth is within this factor of its neighbours' median.
+constexpr double kMinRatio = 0.05;      // Least depth in the second view over depth in the first.
 
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
@@ -71,6 +72,13 @@ float gradient_weight(const Texel& s) {
   return c2 / (c2 + s.dx * s.dx + s.dy * s.dy);
 }
 
+double median(std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// The problem on one pyramid level.
 class Level {
  public:
@@ -87,6 +95,17 @@ class Level {
     });
   }
 
+  /// Sets the limit beyond which points are outliers from their present residuals.
+  void set_outlier_limit(const JointState& state) {
+    outlier_rms_ = std::numeric_limits<double>::infinity();
+    std::vector<double> rms;
+    for (int i = 0; i < points(); ++i) {
+      const PointSystem system = linearize(i, state);
+      if (system.visible) rms.push_back(system.rms);
+    }
+    outlier_rms_ = rms.empty() ? kMinOutlier : std::max(kMinOutlier, kOutlierFactor * median(rms));
+  }
+
   int points() const { return static_cast<int>(hosts_.size()); }
   const PinholeIntrinsics& camera() const { return camera_; }
 
@@ -94,7 +113,7 @@ class Level {
   PointSystem linearize(int index, const JointState& state, std::vector<float>* residuals = nullptr) const {
     const HostPoint& host = hosts_[index];
     PointSystem system;
-    system.energy = kPatternSize * kOutlier * kOutlier;
+    system.energy = kPatternSize * outlier_rms_ * outlier_rms_;
     if (!host.usable) return system;
     const Eigen::Matrix3f R = state.T_second_first.rotation_matrix().cast<float>();
     const Eigen::Vector3f t = state.T_second_first.translation().cast<float>();
@@ -107,7 +126,7 @@ class Level {
     system.visible = true;
     system.rms = std::sqrt(sums.squared / kPatternSize);
     if (residuals != nullptr) residuals->insert(residuals->end(), sums.residuals.begin(), sums.residuals.end());
-    system.outlier = sums.energy > system.energy;
+    system.outlier = sums.squared > system.energy;
     if (system.outlier) return system;
     system.energy = sums.energy;
     system.h_dd = sums.h_dd;
@@ -173,7 +192,10 @@ class Level {
     const float gy = s.dy * fy * iz;
     const Eigen::Vector3f J_q(gx, gy, -gx * X - gy * Y);
     Vector8f J;
-    J << idepth * J_q, q.cross(J_q), -factor * host.intensity[k], -1;
+    J.head<3>() = J_q * idepth;
+    J.segment<3>(3) = q.cross(J_q);
+    J[6] = -factor * host.intensity[k];
+    J[7] = -1;
     const float J_d = J_q.dot(t);
     sums.residuals[k] = r;
     sums.energy += weight * r * r * (2 - huber);
@@ -189,6 +211,7 @@ class Level {
   const Image<Texel>& second_;
   PinholeIntrinsics camera_;
   double exposure_ratio_;
+  double outlier_rms_ = 0;
   std::vector<HostPoint> hosts_;
 };
 
@@ -288,13 +311,6 @@ class Solver {
   std::vector<PointElimination> points_;
 };
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// The scale direction is free: the direction's covariance is that within the plane orthogonal to t.
 double direction_stddev(const ReducedSystem& system, const SE3d& T, double noise) {
   const Eigen::Vector3d t = T.translation();
@@ -363,7 +379,8 @@ JointFit JointAlignment::align(const PreparedFrame& second, JointState start, co
   const int top = std::min(coarsest, static_cast<int>(first_.pyramid.levels.size()) - 1);
   for (int l = top; l >= 0; --l) {
     const std::vector<double> centres = neighbour_medians(fit.state.idepth);
-    const Level level(first_, second, pixels_, camera_, l, pool_);
+    Level level(first_, second, pixels_, camera_, l, pool_);
+    level.set_outlier_limit(fit.state);
     Solver solver(level, centres, prior, pool_);
     fit.energy = solver.minimize(fit.state);
     if (l > 0) continue;

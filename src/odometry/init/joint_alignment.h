@@ -10,6 +10,7 @@
 #include "image/frame.h"
 #include "ldso/calibration.h"
 #include "ldso/se3.h"
+#include "odometry/brightness.h"
 #include "util/thread_pool.h"
 
 namespace ldso {
@@ -31,16 +32,10 @@ struct JointPointQuality {
 
 struct JointFit {
   JointState state;
-  double noise = 0;             ///< Robust standard deviation of the residuals [grey levels].
+  double noise = 0;  ///< Robust standard deviation of the residuals [grey levels].
   double energy = 0;
   double direction_stddev = 0;  ///< Of the direction of translation, in its worst direction [rad].
   std::vector<JointPointQuality> points;
-};
-
-/// Precision of zero-mean priors on a and b; 0: free.
-struct BrightnessPrior {
-  double a = 0;
-  double b = 0;
 };
 
 class JointAlignment {

@@ -16,6 +16,8 @@ constexpr double kMinCorrelation = 0.7;  // Below it the patch shows something e
 constexpr float kNoise = 5.0f;           // Grey levels, and
 constexpr float kMoveStddev = 3.0f;      // px: a level's start is known that well. Keeps edges from sliding.
 
+constexpr float kDamping = kNoise * kNoise / (kMoveStddev * kMoveStddev);
+
 bool inside(const Image<Texel>& image, float x, float y) {
   return x >= 0 && y >= 0 && x < static_cast<float>(image.width() - 1) && y < static_cast<float>(image.height() - 1);
 }
@@ -42,17 +44,9 @@ float interpolate(const Image<Texel>& image, float x, float y) {
   return top + fy * (bottom - top);
 }
 
-void remove_mean(float* values, int count) {
-  float sum = 0;
-  for (int i = 0; i < count; ++i) sum += values[i];
-  const float mean = sum / static_cast<float>(count);
-  for (int i = 0; i < count; ++i) values[i] -= mean;
-}
-
 }  // namespace
 
-PatchTracker::PatchTracker(const PreparedFrame& reference, const std::vector<Eigen::Vector2d>& pixels,
-                           ThreadPool& pool)
+PatchTracker::PatchTracker(const PreparedFrame& reference, const std::vector<Eigen::Vector2d>& pixels, ThreadPool& pool)
     : levels_(static_cast<int>(reference.pyramid.levels.size())), templates_(pixels.size() * levels_) {
   pool.for_chunks(static_cast<int>(pixels.size()), 64, [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -79,16 +73,22 @@ PatchTracker::Template PatchTracker::make_template(const Image<Texel>& image, co
       patch.gy[k] = 0.5f * (interpolate(image, px, py + 1) - interpolate(image, px, py - 1));
     }
   }
-  remove_mean(patch.intensity, kPixels);
-  remove_mean(patch.gx, kPixels);
-  remove_mean(patch.gy, kPixels);
   for (int k = 0; k < kPixels; ++k) {
     patch.hxx += patch.gx[k] * patch.gx[k];
     patch.hxy += patch.gx[k] * patch.gy[k];
     patch.hyy += patch.gy[k] * patch.gy[k];
-    patch.energy += patch.intensity[k] * patch.intensity[k];
+    patch.sum_gx += patch.gx[k];
+    patch.sum_gy += patch.gy[k];
+    patch.mean += patch.intensity[k] / kPixels;
   }
-  patch.usable = patch.energy > 0;
+  patch.hxx -= patch.sum_gx * patch.sum_gx * kOffsetShare;
+  patch.hxy -= patch.sum_gx * patch.sum_gy * kOffsetShare;
+  patch.hyy -= patch.sum_gy * patch.sum_gy * kOffsetShare;
+  for (int k = 0; k < kPixels; ++k) {
+    const float centred = patch.intensity[k] - patch.mean;
+    patch.energy += centred * centred;
+  }
+  patch.usable = patch.energy > 1;
   return patch;
 }
 
@@ -103,7 +103,6 @@ bool PatchTracker::sample(const Image<Texel>& image, const Eigen::Vector2f& cent
                               centre.y() + warp(1, 0) * fx + warp(1, 1) * fy);
     }
   }
-  remove_mean(values, kPixels);
   return true;
 }
 
@@ -117,38 +116,57 @@ bool PatchTracker::all_valid(const Image<Texel>& image, const Eigen::Vector2f& c
   return true;
 }
 
-PatchTracker::Misfit PatchTracker::misfit(const float* values, const Template& patch, float gain) const {
+PatchTracker::Misfit PatchTracker::misfit(const float* values, const Template& patch,
+                                          const BrightnessTransfer& brightness) const {
+  double sum = 0;
   double squared = 0;
+  double mean = 0;
+  for (int k = 0; k < kPixels; ++k) {
+    const double e = values[k] - brightness.factor * patch.intensity[k] - brightness.offset;
+    sum += e;
+    squared += e * e;
+    mean += values[k] / static_cast<double>(kPixels);
+  }
   double product = 0;
   double energy = 0;
   for (int k = 0; k < kPixels; ++k) {
-    const double e = values[k] - gain * patch.intensity[k];
-    squared += e * e;
-    product += static_cast<double>(values[k]) * patch.intensity[k];
-    energy += static_cast<double>(values[k]) * values[k];
+    const double centred = values[k] - mean;
+    product += centred * (patch.intensity[k] - patch.mean);
+    energy += centred * centred;
   }
-  return {squared, product / patch.energy, product / std::sqrt(std::max(1e-12, energy * patch.energy))};
+  Misfit result;
+  result.squared = squared - sum * sum * kOffsetShare;
+  result.gain = product / patch.energy;
+  result.mean = mean;
+  result.correlation = product / std::sqrt(std::max(1e-12, energy * patch.energy));
+  return result;
 }
 
 /// Gauss-Newton with the reference's gradients: with g the gain and A the warp, the gradient in the current
-/// frame is g A^-T grad and the step -1/g A H^-1 sum(grad e).
-bool PatchTracker::align(const Image<Texel>& image, const Template& patch, const Eigen::Matrix2f& warp, float gain,
-                         Eigen::Vector2f& centre) const {
+/// frame is g A^-T grad and the step -1/g A H^-1 sum(grad e). The patch's own offset is eliminated.
+bool PatchTracker::align(const Image<Texel>& image, const Template& patch, const Eigen::Matrix2f& warp,
+                         const BrightnessTransfer& brightness, Eigen::Vector2f& centre) const {
   const Eigen::Vector2f start = centre;
-  const float damping = kNoise * kNoise / (kMoveStddev * kMoveStddev);
+  const auto gain = static_cast<float>(brightness.factor);
+  const auto offset = static_cast<float>(brightness.offset);
   Eigen::Matrix2f H;
-  H << patch.hxx + damping, patch.hxy, patch.hxy, patch.hyy + damping;
+  H << patch.hxx + kDamping, patch.hxy, patch.hxy, patch.hyy + kDamping;
   const Eigen::Matrix2f to_step = warp * H.inverse() / gain;
   float values[kPixels];
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     if (!sample(image, centre, warp, values)) return false;
-    Eigen::Vector2f b = Eigen::Vector2f::Zero();
+    float bx = 0;
+    float by = 0;
+    float sum = 0;
     for (int k = 0; k < kPixels; ++k) {
-      const float e = values[k] - gain * patch.intensity[k];
-      b.x() += patch.gx[k] * e;
-      b.y() += patch.gy[k] * e;
+      const float e = values[k] - gain * patch.intensity[k] - offset;
+      bx += patch.gx[k] * e;
+      by += patch.gy[k] * e;
+      sum += e;
     }
-    const Eigen::Vector2f step = -(to_step * b);
+    bx -= patch.sum_gx * sum * kOffsetShare;
+    by -= patch.sum_gy * sum * kOffsetShare;
+    const Eigen::Vector2f step = -(to_step * Eigen::Vector2f(bx, by));
     centre += step;
     if (!((centre - start).squaredNorm() < kMaxMove * kMaxMove)) return false;
     if (step.squaredNorm() < kConverged * kConverged) return true;
@@ -157,7 +175,8 @@ bool PatchTracker::align(const Image<Texel>& image, const Template& patch, const
 }
 
 Eigen::Vector2d PatchTracker::best_start(const PreparedFrame& current, std::size_t index,
-                                         const PatchPrediction& prediction, double gain) const {
+                                         const PatchPrediction& prediction,
+                                         const BrightnessTransfer& brightness) const {
   const int level = std::min(kStartLevel, levels_ - 1);
   const Template& patch = templates_[index * levels_ + level];
   Eigen::Vector2d best = prediction.starts.front();
@@ -165,11 +184,10 @@ Eigen::Vector2d PatchTracker::best_start(const PreparedFrame& current, std::size
   float values[kPixels];
   for (const Eigen::Vector2d& start : prediction.starts) {
     const Eigen::Vector2f centre = to_level(start, level).cast<float>();
-    if (!patch.usable ||
-        !sample(current.pyramid.levels[level], centre, prediction.warp.cast<float>(), values)) {
+    if (!patch.usable || !sample(current.pyramid.levels[level], centre, prediction.warp.cast<float>(), values)) {
       continue;
     }
-    const double squared = misfit(values, patch, static_cast<float>(gain)).squared;
+    const double squared = misfit(values, patch, brightness).squared;
     if (squared < best_squared) {
       best_squared = squared;
       best = start;
@@ -178,17 +196,17 @@ Eigen::Vector2d PatchTracker::best_start(const PreparedFrame& current, std::size
   return best;
 }
 
-PatchMatch PatchTracker::track_patch(const PreparedFrame& current, std::size_t index,
-                                     const PatchPrediction& prediction, double gain) const {
+PatchMatch PatchTracker::track_patch(const PreparedFrame& current, std::size_t index, const PatchPrediction& prediction,
+                                     const BrightnessTransfer& brightness) const {
   PatchMatch match;
   if (prediction.starts.empty() || !templates_[index * levels_].usable) return match;
   const Eigen::Matrix2f warp = prediction.warp.cast<float>();
-  match.position = best_start(current, index, prediction, gain);
+  match.position = best_start(current, index, prediction, brightness);
   for (int level = levels_ - 1; level >= 0; --level) {
     const Template& patch = templates_[index * levels_ + level];
     if (!patch.usable) continue;
     Eigen::Vector2f centre = to_level(match.position, level).cast<float>();
-    const bool ok = align(current.pyramid.levels[level], patch, warp, static_cast<float>(gain), centre);
+    const bool ok = align(current.pyramid.levels[level], patch, warp, brightness, centre);
     if (ok) match.position = from_level(centre.cast<double>(), level);
     if (!ok && level == 0) return match;
   }
@@ -197,25 +215,28 @@ PatchMatch PatchTracker::track_patch(const PreparedFrame& current, std::size_t i
   const Eigen::Vector2f centre = match.position.cast<float>();
   float values[kPixels];
   if (!sample(image, centre, warp, values) || !all_valid(image, centre, warp)) return match;
-  const Misfit fit = misfit(values, patch, static_cast<float>(gain));
+  const Misfit fit = misfit(values, patch, brightness);
   match.gain = fit.gain;
+  match.mean = fit.mean;
+  match.reference_mean = patch.mean;
   match.correlation = fit.correlation;
   match.found = fit.correlation > kMinCorrelation;
   // The misfit stands for noise and for all that the model leaves out; never below a grey level.
   const double variance = std::max(1.0, fit.squared / (kPixels - 3));
   Eigen::Matrix2d H;
   H << patch.hxx, patch.hxy, patch.hxy, patch.hyy;
-  H += Eigen::Matrix2d::Identity() * (kNoise * kNoise / (kMoveStddev * kMoveStddev));
-  match.covariance = variance / (gain * gain) * prediction.warp * H.inverse() * prediction.warp.transpose();
+  H += Eigen::Matrix2d::Identity() * kDamping;
+  match.covariance =
+      variance / (brightness.factor * brightness.factor) * prediction.warp * H.inverse() * prediction.warp.transpose();
   return match;
 }
 
 std::vector<PatchMatch> PatchTracker::track(const PreparedFrame& current,
-                                            const std::vector<PatchPrediction>& predictions, double gain,
-                                            ThreadPool& pool) const {
+                                            const std::vector<PatchPrediction>& predictions,
+                                            const BrightnessTransfer& brightness, ThreadPool& pool) const {
   std::vector<PatchMatch> matches(predictions.size());
   pool.for_chunks(static_cast<int>(predictions.size()), 32, [&](int, int begin, int end) {
-    for (int i = begin; i < end; ++i) matches[i] = track_patch(current, i, predictions[i], gain);
+    for (int i = begin; i < end; ++i) matches[i] = track_patch(current, i, predictions[i], brightness);
   });
   return matches;
 }

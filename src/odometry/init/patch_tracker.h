@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/frame.h"
+#include "odometry/brightness.h"
 #include "util/thread_pool.h"
 
 namespace ldso {
@@ -23,9 +24,11 @@ struct PatchPrediction {
 
 struct PatchMatch {
   bool found = false;
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();       ///< Centre in the current frame [px, level 0].
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();        ///< Centre in the current frame [px, level 0].
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< Of the position [px^2], from the patch's own misfit.
   double gain = 1;                                           ///< Contrast of the current patch over the reference's.
+  double mean = 0;                                           ///< Of the current patch [grey levels].
+  double reference_mean = 0;                                 ///< Of the reference's.
   double correlation = 0;                                    ///< Zero-mean normalized cross-correlation.
 };
 
@@ -35,41 +38,47 @@ class PatchTracker {
   /// `pixels`: level-0 positions, at least 4 px inside the image (others are never found).
   PatchTracker(const PreparedFrame& reference, const std::vector<Eigen::Vector2d>& pixels, ThreadPool& pool);
 
-  /// One match a pixel. `gain`: expected contrast of the current frame over the reference's.
+  /// One match a pixel. `brightness`: expected transfer from the reference to the current frame.
   std::vector<PatchMatch> track(const PreparedFrame& current, const std::vector<PatchPrediction>& predictions,
-                                double gain, ThreadPool& pool) const;
+                                const BrightnessTransfer& brightness, ThreadPool& pool) const;
 
  private:
   static constexpr int kRadius = 3;
   static constexpr int kSide = 2 * kRadius + 1;
   static constexpr int kPixels = kSide * kSide;
+  /// A patch's own brightness offset, known to be small (1 grey level against noise of 5), is eliminated:
+  /// sums of products lose this share of the product of their sums.
+  static constexpr float kOffsetShare = 1.0f / (kPixels + 25.0f);
 
-  /// Mean-free intensities and gradients of a patch on one level.
+  /// Intensities and gradients of a patch on one level.
   struct Template {
     bool usable = false;
     float intensity[kPixels];
     float gx[kPixels];
     float gy[kPixels];
-    float hxx = 0, hxy = 0, hyy = 0;
-    float energy = 0;  ///< Sum of squared intensities.
+    float hxx = 0, hxy = 0, hyy = 0;  ///< Structure tensor, the patch's offset eliminated.
+    float sum_gx = 0, sum_gy = 0;
+    float mean = 0;
+    float energy = 0;  ///< Sum of squared intensities less their mean.
   };
   struct Misfit {
     double squared = 0;
     double gain = 1;
+    double mean = 0;
     double correlation = 0;
   };
 
   Template make_template(const Image<Texel>& image, const Eigen::Vector2d& centre) const;
   PatchMatch track_patch(const PreparedFrame& current, std::size_t index, const PatchPrediction& prediction,
-                         double gain) const;
+                         const BrightnessTransfer& brightness) const;
   Eigen::Vector2d best_start(const PreparedFrame& current, std::size_t index, const PatchPrediction& prediction,
-                             double gain) const;
-  bool align(const Image<Texel>& image, const Template& patch, const Eigen::Matrix2f& warp, float gain,
-             Eigen::Vector2f& centre) const;
+                             const BrightnessTransfer& brightness) const;
+  bool align(const Image<Texel>& image, const Template& patch, const Eigen::Matrix2f& warp,
+             const BrightnessTransfer& brightness, Eigen::Vector2f& centre) const;
   static bool sample(const Image<Texel>& image, const Eigen::Vector2f& centre, const Eigen::Matrix2f& warp,
                      float* values);
   static bool all_valid(const Image<Texel>& image, const Eigen::Vector2f& centre, const Eigen::Matrix2f& warp);
-  Misfit misfit(const float* values, const Template& patch, float gain) const;
+  Misfit misfit(const float* values, const Template& patch, const BrightnessTransfer& brightness) const;
 
   int levels_ = 0;
   std::vector<Template> templates_;  ///< [pixel * levels_ + level]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "image/interpolation.h"
 
@@ -12,9 +13,13 @@ namespace ldso {
 namespace {
 
 constexpr int kIterations = 12;
-constexpr int kLongestSide = 170;  // The finest level used is not wider than this [px].
+constexpr std::size_t kMostPixels = 8000;  // Finer levels are not used: a prediction need not be precise.
 constexpr float kHuber = 9.0f;
 constexpr double kMinOverlap = 0.4;
+constexpr double kSearchStep = 2.0;  // [px of the coarsest level]
+constexpr int kSearchStepsX = 4;
+constexpr int kSearchStepsY = 2;
+constexpr std::size_t kFinalists = 3;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
@@ -53,6 +58,7 @@ class Level {
     return sums;
   }
 
+  const PinholeIntrinsics& camera() const { return camera_; }
   double pixels() const { return static_cast<double>(from_.width()) * from_.height(); }
 
  private:
@@ -90,11 +96,10 @@ class Level {
   const PinholeIntrinsics camera_;
 };
 
-/// Levenberg-Marquardt on one level; true if the energy went down.
-bool refine(const Level& level, State& state) {
+/// Levenberg-Marquardt on one level; returns the mean energy.
+double refine(const Level& level, State& state) {
   NormalEquations now = level.linearize(state);
-  const double start_energy = now.mean_energy(level.pixels());
-  double energy = start_energy;
+  double energy = now.mean_energy(level.pixels());
   double lambda = 1e-3;
   for (int i = 0; i < kIterations && std::isfinite(energy); ++i) {
     Matrix5 H = now.H;
@@ -116,21 +121,47 @@ bool refine(const Level& level, State& state) {
     lambda = std::max(1e-6, lambda * 0.2);
     if (step.head<3>().norm() < 1e-5) break;
   }
-  return energy < start_energy;
+  return energy;
+}
+
+struct Trial {
+  State state;
+  double energy;
+};
+
+/// Fast turns leave the basin of even the coarsest image: turns by whole steps in both directions around
+/// `centre` are compared there, and the best few refined.
+State search(const Level& level, const SO3d& centre) {
+  const double step = kSearchStep / std::max(level.camera().fx, level.camera().fy);
+  std::vector<Trial> trials;
+  for (int y = -kSearchStepsY; y <= kSearchStepsY; ++y) {
+    for (int x = -kSearchStepsX; x <= kSearchStepsX; ++x) {
+      const State state{SO3d::exp({y * step, x * step, 0}) * centre, 1, 0};
+      trials.push_back({state, level.linearize(state).mean_energy(level.pixels())});
+    }
+  }
+  std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.energy < b.energy; });
+  trials.resize(std::min(trials.size(), kFinalists));
+  for (Trial& trial : trials) trial.energy = refine(level, trial.state);
+  return std::min_element(trials.begin(), trials.end(),
+                          [](const Trial& a, const Trial& b) { return a.energy < b.energy; })
+      ->state;
 }
 
 }  // namespace
 
-SO3d align_rotation(const PreparedFrame& from, const PreparedFrame& to, const PinholeIntrinsics& camera) {
+RotationAlignment align_rotation(const PreparedFrame& from, const PreparedFrame& to, const PinholeIntrinsics& camera,
+                                 const SO3d& guess) {
   const auto& images = from.pyramid.levels;
   const int coarsest = static_cast<int>(images.size()) - 1;
   State state;
-  bool better = false;
   for (int l = coarsest; l >= 0; --l) {
-    if (l < coarsest && std::max(images[l].width(), images[l].height()) > kLongestSide) break;
-    better |= refine(Level(images[l], to.pyramid.levels[l], level_intrinsics(camera, l)), state);
+    if (l < coarsest && images[l].size() > kMostPixels) break;
+    const Level level(images[l], to.pyramid.levels[l], level_intrinsics(camera, l));
+    if (l == coarsest) state = search(level, guess);
+    refine(level, state);
   }
-  return better ? state.rotation : SO3d();
+  return {state.rotation, {state.gain, state.offset}};
 }
 
 }  // namespace ldso

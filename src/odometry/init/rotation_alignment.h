@@ -6,11 +6,18 @@
 #include "image/frame.h"
 #include "ldso/calibration.h"
 #include "ldso/so3.h"
+#include "odometry/brightness.h"
 
 namespace ldso {
 
-/// R_to_from such that `to` seen through it looks like `from`; translation is not modelled, brightness may
-/// change by a factor and an offset. The identity if the images do not agree better under any rotation found.
-SO3d align_rotation(const PreparedFrame& from, const PreparedFrame& to, const PinholeIntrinsics& camera);
+struct RotationAlignment {
+  SO3d R_to_from;
+  BrightnessTransfer brightness;
+};
+
+/// Such that `to` seen through it looks like `from`; translation is not modelled. Rotations around `guess`
+/// are searched.
+RotationAlignment align_rotation(const PreparedFrame& from, const PreparedFrame& to, const PinholeIntrinsics& camera,
+                                 const SO3d& guess = SO3d());
 
 }  // namespace ldso

@@ -11,12 +11,14 @@
 namespace ldso {
 namespace {
 
-constexpr double kCauchy = 2.0;        // [standard deviations]
-constexpr double kMaxIdepth = 5.0;     // [1 / baseline]
+constexpr double kCauchy = 2.0;         // [standard deviations]
+constexpr double kMaxIdepth = 5.0;      // [1 / baseline]
 constexpr double kMinDepthRatio = 0.1;  // Depth in the second view over depth in the first.
-constexpr int kSearchMatches = 250;    // So many suffice to tell the directions of motion apart.
-constexpr int kSearchIterations = 12;
-constexpr int kFinalIterations = 25;
+constexpr int kSearchMatches = 160;     // So many suffice to find the directions of motion,
+constexpr int kCompareMatches = 500;    // and so many to tell which is best.
+constexpr int kSearchIterations = 10;
+constexpr int kFinalIterations = 20;
+constexpr int kPolishIterations = 8;
 constexpr double kDistinctDirection = 0.2;  // [rad]
 constexpr std::size_t kFinalists = 3;
 
@@ -225,7 +227,7 @@ std::vector<TwoViewMatch> thinned(const std::vector<TwoViewMatch>& matches, int 
 
 /// A half sphere of directions: ahead, sideways, up, and between.
 std::vector<Eigen::Vector3d> start_directions() {
-  const std::vector<Eigen::Vector3d> directions = {{0, 0, 1}, {1, 0, 0},  {0, 1, 0},  {1, 0, 1}, {-1, 0, 1},
+  const std::vector<Eigen::Vector3d> directions = {{0, 0, 1}, {1, 0, 0},  {0, 1, 0}, {1, 0, 1}, {-1, 0, 1},
                                                    {0, 1, 1}, {0, -1, 1}, {1, 1, 0}, {1, -1, 0}};
   std::vector<Eigen::Vector3d> result;
   for (const auto& d : directions) result.push_back(d.normalized());
@@ -263,6 +265,36 @@ std::vector<Candidate> search(const std::vector<TwoViewMatch>& matches, const Pi
   return distinct(std::move(candidates));
 }
 
+struct PoseEquations {
+  Matrix6 H = Matrix6::Zero();
+  Vector6 b = Vector6::Zero();
+  double cost = 0;
+};
+
+PoseEquations pose_equations(const std::vector<TwoViewMatch>& matches, const std::vector<double>& idepth,
+                             const PinholeIntrinsics& camera, const SE3d& T) {
+  PoseEquations sums;
+  const double k2 = kCauchy * kCauchy;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Eigen::Vector3d q = T.rotation() * matches[i].ray + idepth[i] * T.translation();
+    const double z = std::max(q.z(), 0.5 * kMinDepthRatio);
+    const Eigen::Vector2d px(camera.fx * q.x() / z + camera.cx, camera.fy * q.y() / z + camera.cy);
+    const Eigen::Vector2d residual = matches[i].whitening * (px - matches[i].target);
+    Matrix23 J_point;
+    J_point << camera.fx / z, 0, -camera.fx * q.x() / (z * z), 0, camera.fy / z, -camera.fy * q.y() / (z * z);
+    J_point = matches[i].whitening * J_point;
+    Eigen::Matrix<double, 2, 6> J;
+    J.leftCols<3>() = idepth[i] * J_point;
+    J.rightCols<3>() = -J_point * SO3d::hat(q);
+    const double e2 = residual.squaredNorm();
+    const double weight = 1 / (1 + e2 / k2);
+    sums.H.noalias() += weight * J.transpose() * J;
+    sums.b.noalias() += weight * J.transpose() * residual;
+    sums.cost += k2 * std::log1p(e2 / k2);
+  }
+  return sums;
+}
+
 double direction_stddev(const Problem& problem, const SE3d& T) {
   const Eigen::MatrixXd basis = free_motions(T, Depths::kPositive);
   Eigen::Matrix<double, 5, 5> H = basis.transpose() * problem.linearize(T).H * basis;
@@ -281,7 +313,6 @@ TwoViewFit fit_rotation(const std::vector<TwoViewMatch>& matches, const PinholeI
   TwoViewFit fit;
   fit.T_second_first = best.T;
   fit.cost = best.cost;
-  fit.runner_up_cost = std::numeric_limits<double>::infinity();
   fill_points(matches, problem, fit);
   return fit;
 }
@@ -291,18 +322,48 @@ TwoViewFit fit_motion(const std::vector<TwoViewMatch>& matches, const PinholeInt
   std::vector<Candidate> starts = search(thinned(matches, kSearchMatches), camera, rotation, pool);
   starts.resize(std::min(starts.size(), kFinalists));
   if (guess) starts.push_back({SE3d(guess->rotation(), guess->translation().normalized()), 0});
-  const Problem problem(matches, camera, Depths::kPositive);
-  pool.run(static_cast<int>(starts.size()), [&](int i) {
-    starts[i] = minimize(problem, starts[i].T, Depths::kPositive, kFinalIterations);
-  });
+  const std::vector<TwoViewMatch> some = thinned(matches, kCompareMatches);
+  const Problem comparison(some, camera, Depths::kPositive);
+  pool.run(static_cast<int>(starts.size()),
+           [&](int i) { starts[i] = minimize(comparison, starts[i].T, Depths::kPositive, kFinalIterations); });
   const std::vector<Candidate> best = distinct(std::move(starts));
+  const Problem problem(matches, camera, Depths::kPositive);
+  const Candidate final = minimize(problem, best.front().T, Depths::kPositive, kPolishIterations);
   TwoViewFit fit;
-  fit.T_second_first = best.front().T;
-  fit.cost = best.front().cost;
-  fit.runner_up_cost = best.size() > 1 ? best[1].cost : std::numeric_limits<double>::infinity();
+  fit.T_second_first = final.T;
+  fit.cost = final.cost;
+  fit.runner_up_ratio =
+      best.size() > 1 ? best[1].cost / std::max(1e-9, best[0].cost) : std::numeric_limits<double>::infinity();
   fit.direction_stddev = direction_stddev(problem, fit.T_second_first);
   fill_points(matches, problem, fit);
   return fit;
+}
+
+SE3d fit_pose(const std::vector<TwoViewMatch>& matches, const std::vector<double>& idepth,
+              const PinholeIntrinsics& camera, const SE3d& start) {
+  SE3d T = start;
+  PoseEquations now = pose_equations(matches, idepth, camera, T);
+  double lambda = 1e-3;
+  for (int i = 0; i < kFinalIterations; ++i) {
+    Matrix6 H = now.H;
+    H.diagonal() *= 1 + lambda;
+    H.diagonal().array() += 1e-9;
+    const Vector6 step = -H.ldlt().solve(now.b);
+    if (!step.allFinite()) break;
+    const SE3d trial = SE3d::exp(step) * T;
+    const PoseEquations next = pose_equations(matches, idepth, camera, trial);
+    if (!(next.cost < now.cost)) {
+      lambda *= 8;
+      if (lambda > 1e4) break;
+      continue;
+    }
+    const bool converged = now.cost - next.cost < 1e-6 * now.cost;
+    T = trial;
+    now = next;
+    lambda *= 0.2;
+    if (converged) break;
+  }
+  return T;
 }
 
 }  // namespace ldso

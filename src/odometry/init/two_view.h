@@ -26,7 +26,7 @@ struct TwoViewFit {
   double cost = 0;              ///< Sum of Cauchy-weighted squared errors [standard deviations^2].
   std::vector<double> idepth;   ///< Of each match [1 / baseline], not negative; 0 if the camera only turned.
   std::vector<double> error;    ///< Of each match [standard deviations].
-  double runner_up_cost = 0;    ///< Of the best fit with another direction of motion; infinity if none.
+  double runner_up_ratio = 0;   ///< Cost of the best fit with another direction of motion over the best cost.
   double direction_stddev = 0;  ///< Of the direction of the translation, in its worst direction [rad].
 };
 
@@ -38,5 +38,10 @@ TwoViewFit fit_rotation(const std::vector<TwoViewMatch>& matches, const PinholeI
 /// several directions, and at `guess` if there is one. Needs at least 8 matches.
 TwoViewFit fit_motion(const std::vector<TwoViewMatch>& matches, const PinholeIntrinsics& camera, const SO3d& rotation,
                       const std::optional<SE3d>& guess, ThreadPool& pool);
+
+/// The pose of the second camera if the inverse depths of the matches are known (same units as the
+/// translation); starts at `start`. Needs at least 6 matches.
+SE3d fit_pose(const std::vector<TwoViewMatch>& matches, const std::vector<double>& idepth,
+              const PinholeIntrinsics& camera, const SE3d& start);
 
 }  // namespace ldso
