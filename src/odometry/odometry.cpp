@@ -15,6 +15,8 @@ constexpr double kFirstBrightnessPriorA = 1e12;
 constexpr double kFirstBrightnessPriorB = 1e8;
 /// Frames that may fail in a row before the map is given up.
 constexpr int kMostLostFrames = 20;
+/// Frames kept while waiting for parallax, to be tracked once the map has started.
+constexpr std::size_t kMostWaitingFrames = 30;
 /// Iterations while the window is young: its depths are still rough.
 constexpr int kFirstIterations = 20;
 constexpr int kSecondIterations = 15;
@@ -69,14 +71,20 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
   }
   output.frame.state = TrackingState::kInitializing;
   output.frame.reason = initializer_->reason();
-  if (status != Initializer::Status::kReady) return;
+  if (status == Initializer::Status::kRestarted) waiting_.clear();
+  if (status != Initializer::Status::kReady) {
+    waiting_.push_back(frame);
+    if (waiting_.size() > kMostWaitingFrames) waiting_.pop_front();
+    return;
+  }
   const Initialization start = initializer_->result();
   const auto first = initializer_->first_frame();
   initializer_->reset();
-  start_window(start, first, frame);
+  start_window(start, first);
   const SE3d T_scaled(start.T_current_first.rotation(), start.T_current_first.translation() * start_scale_);
   const SE3d T_c_w = T_scaled * newest().state.T_c_w();
   if (!make_keyframe(frame, T_c_w, {start.a, start.b}, output)) {
+    waiting_.clear();
     restart("the first two keyframes do not fit together", output);
     return;
   }
@@ -87,10 +95,42 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
   // The motion since the first frame, spread over the frames between.
   const auto frames = static_cast<double>(std::max<std::int64_t>(1, frame->id - first->id));
   T_last_previous_ = SE3d::exp((newest().state.T_c_w() * window_.keyframes.front()->state.T_c_w().inverse()).log() / frames);
+  track_waiting(output.late);
 }
 
-void Odometry::start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first,
-                            const std::shared_ptr<const PreparedFrame>&) {
+void Odometry::track_waiting(std::vector<FrameRecord>& records) {
+  const StageTimer timer(times_, "track_waiting");
+  const Keyframe& first = *window_.keyframes.front();
+  // Backwards from the newest keyframe, whose depths are the reference: each frame lies near the one after it.
+  SE3d T_frame_ref;
+  Brightness brightness = newest().state.brightness();
+  while (!waiting_.empty()) {
+    const std::shared_ptr<const PreparedFrame> frame = waiting_.back();
+    waiting_.pop_back();
+    FrameRecord record;
+    record.frame_id = frame->id;
+    record.timestamp = frame->timestamp;
+    record.state = TrackingState::kTracked;
+    if (frame->id == first.id()) {
+      record.keyframe_id = first.id();
+      record.is_keyframe = true;
+      records.push_back(record);
+      continue;
+    }
+    const AlignmentResult result = tracker_.align(*frame, T_frame_ref, brightness, brightness_prior(*frame), {});
+    if (!result.good || result.rmse() > settings_.tracking.lost_rmse || result.in_view < settings_.tracking.least_in_view) continue;
+    T_frame_ref = result.T_new_ref;
+    brightness = result.brightness;
+    record.keyframe_id = newest().id();
+    record.T_keyframe_frame = T_frame_ref.inverse();
+    record.residual_rmse = static_cast<float>(result.rmse());
+    record.brightness_a = static_cast<float>(brightness.a);
+    record.brightness_b = static_cast<float>(brightness.b);
+    records.push_back(record);
+  }
+}
+
+void Odometry::start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first) {
   window_ = Window();
   window_.width = camera_.width;
   window_.height = camera_.height;

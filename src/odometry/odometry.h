@@ -3,6 +3,7 @@
 // The conductor of the odometry: one frame in, a pose out; keyframes and their points come out when they leave
 // the sliding window. Everything is emitted by value and forgotten.
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ namespace ldso {
 /// What one frame brought about.
 struct OdometryOutput {
   FrameRecord frame;
+  std::vector<FrameRecord> late;         ///< Earlier frames whose pose is known only now; they replace what was said.
   std::vector<KeyframeUpdate> finished;  ///< Keyframes that left the window.
 };
 
@@ -46,8 +48,8 @@ class Odometry {
 
  private:
   void initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
-  void start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first,
-                    const std::shared_ptr<const PreparedFrame>& current);
+  void start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first);
+  void track_waiting(std::vector<FrameRecord>& records);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   AlignmentResult align(const PreparedFrame& frame);
   BrightnessPrior brightness_prior(const PreparedFrame& frame) const;
@@ -68,6 +70,7 @@ class Odometry {
   StageTimes times_;
 
   TrackingState state_ = TrackingState::kInitializing;
+  std::deque<std::shared_ptr<const PreparedFrame>> waiting_;  ///< Seen since the initializer's first frame, that included.
   std::unique_ptr<Initializer> initializer_;
   std::unique_ptr<PointSelector> selector_;
   CoarseTracker tracker_;

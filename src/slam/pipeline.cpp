@@ -37,6 +37,7 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
     output = odometry_.process(frame);
   }
   std::move(output.finished.begin(), output.finished.end(), std::back_inserter(result_.keyframes));
+  for (FrameRecord& late : output.late) replace(std::move(late));
   log_changes(output.frame);
   state_ = output.frame.state;
   return record(std::move(output.frame));
@@ -56,6 +57,13 @@ const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const
 const FrameRecord& Pipeline::record(FrameRecord frame) {
   result_.frames.push_back(std::move(frame));
   return result_.frames.back();
+}
+
+void Pipeline::replace(FrameRecord late) {
+  // Late records are of the last few frames: the search from the back is short.
+  const auto same = std::find_if(result_.frames.rbegin(), result_.frames.rend(),
+                                 [&](const FrameRecord& frame) { return frame.frame_id == late.frame_id; });
+  if (same != result_.frames.rend()) *same = std::move(late);
 }
 
 void Pipeline::log_changes(const FrameRecord& frame) {

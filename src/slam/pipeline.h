@@ -45,6 +45,8 @@ class Pipeline {
 
  private:
   const FrameRecord& record(FrameRecord frame);
+  /// What was said of an earlier frame is superseded.
+  void replace(FrameRecord late);
   void log_changes(const FrameRecord& frame);
 
   LogSink log_;
