@@ -318,7 +318,7 @@ std::vector<RoadPoint> round_trip(const std::vector<Eigen::Vector2d>& corners, d
     const double whole = side(i).norm() - before - after;
     const double straight = i == 0 ? whole - kRunUp : i == n ? kRunUp + overlap : whole;
     if (i == n && straight > whole) throw Error("round trip", "overlaps its start beyond the first corner", "use less");
-    if (straight < 1) throw Error("round trip", "a side is too short for its corners", "use a smaller radius");
+    if (straight < 1) throw Error("round trip", "a side is too short for its corners", "make it larger");
     advance(straight, nullptr);
     if (i < n) advance(turns[i].length, &turns[i]);
   }

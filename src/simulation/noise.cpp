@@ -9,27 +9,42 @@ namespace {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-/// Contribution of the lattice gradient at (ix, iy), seen from (dx, dy).
-double gradient_dot(std::uint64_t seed, int ix, int iy, double dx, double dy) {
-  const double angle = static_cast<double>(hash_of(seed, ix, iy) >> 11) * 0x1.0p-53 * 2 * std::numbers::pi;
-  return std::cos(angle) * dx + std::sin(angle) * dy;
+/// Without the library call that std::floor is on the oldest processors.
+std::int64_t floor_to_int(double x) {
+  const auto truncated = static_cast<std::int64_t>(x);
+  return truncated - static_cast<std::int64_t>(x < static_cast<double>(truncated));
+}
+
+struct Gradient {
+  double x, y;
+  double dot(double dx, double dy) const { return x * dx + y * dy; }
+};
+
+std::vector<Gradient> make_gradients(std::uint64_t seed, int cells) {
+  std::vector<Gradient> gradients;
+  for (int iy = 0; iy < cells; ++iy) {
+    for (int ix = 0; ix < cells; ++ix) {
+      const double angle = static_cast<double>(hash_of(seed, ix, iy) >> 11) * 0x1.0p-53 * 2 * std::numbers::pi;
+      gradients.push_back({std::cos(angle), std::sin(angle)});
+    }
+  }
+  return gradients;
 }
 
 /// Gradient noise with a period of `cells`, added to all samples of the tile.
 void add_octave(std::vector<float>& values, std::uint64_t seed, int cells, double amplitude) {
+  const std::vector<Gradient> gradients = make_gradients(seed, cells);
   const int size = NoiseTile::kSize;
   const double step = static_cast<double>(cells) / size;
   for (int row = 0; row < size; ++row) {
-    const int iy = static_cast<int>(row * step);
+    const int iy = static_cast<int>(row * step), jy = (iy + 1) % cells;
     const double fy = row * step - iy;
     for (int column = 0; column < size; ++column) {
-      const int ix = static_cast<int>(column * step);
+      const int ix = static_cast<int>(column * step), jx = (ix + 1) % cells;
       const double fx = column * step - ix;
-      const int jx = (ix + 1) % cells, jy = (iy + 1) % cells;
-      const double top =
-          std::lerp(gradient_dot(seed, ix, iy, fx, fy), gradient_dot(seed, jx, iy, fx - 1, fy), fade(fx));
-      const double bottom =
-          std::lerp(gradient_dot(seed, ix, jy, fx, fy - 1), gradient_dot(seed, jx, jy, fx - 1, fy - 1), fade(fx));
+      const Gradient *above = &gradients[iy * cells], *below = &gradients[jy * cells];
+      const double top = std::lerp(above[ix].dot(fx, fy), above[jx].dot(fx - 1, fy), fade(fx));
+      const double bottom = std::lerp(below[ix].dot(fx, fy - 1), below[jx].dot(fx - 1, fy - 1), fade(fx));
       values[static_cast<std::size_t>(row) * size + column] +=
           static_cast<float>(amplitude * std::lerp(top, bottom, fade(fy)));
     }
@@ -79,11 +94,11 @@ NoiseTile::NoiseTile(std::uint64_t seed, int lowest, int octaves, double gain)
 }
 
 float NoiseTile::at(double x, double y) const {
-  const double floor_x = std::floor(x), floor_y = std::floor(y);
-  const auto fx = static_cast<float>(x - floor_x), fy = static_cast<float>(y - floor_y);
+  const std::int64_t cell_x = floor_to_int(x), cell_y = floor_to_int(y);
+  const auto fx = static_cast<float>(x - static_cast<double>(cell_x));
+  const auto fy = static_cast<float>(y - static_cast<double>(cell_y));
   const int mask = kSize - 1;
-  const int ix = static_cast<int>(static_cast<std::int64_t>(floor_x) & mask);
-  const int iy = static_cast<int>(static_cast<std::int64_t>(floor_y) & mask);
+  const int ix = static_cast<int>(cell_x & mask), iy = static_cast<int>(cell_y & mask);
   const float* top = values_.data() + static_cast<std::size_t>(iy) * kSize;
   const float* bottom = values_.data() + static_cast<std::size_t>((iy + 1) & mask) * kSize;
   const int jx = (ix + 1) & mask;

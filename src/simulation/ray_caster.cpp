@@ -14,13 +14,12 @@ namespace {
 constexpr int kMaxColumns = 32;
 constexpr int kMaxRows = 16;
 constexpr int kMaxRays = kMaxColumns * kMaxRows;
-constexpr int kSubsamples = 16;
+constexpr int kSubsamples = 32;
 constexpr int kMaxProbes = 12;
 constexpr int kMaxDetailProbes = 6;
 constexpr int kMaxNear = 64;  ///< Surfaces that are looked at within one pixel.
-/// Side of the square that the subsamples of a mixed pixel cover [px]: like the textures' filter wider than a pixel.
-constexpr float kSpread = 1.4f;
-constexpr float kReach = 0.5f * kSpread + 0.05f;
+/// The subsamples of a mixed pixel reach one pixel to all sides.
+constexpr float kReach = 1.02f;
 
 /// Linear function of the ray direction: a * x + b * y + c.
 struct LinearForm {
@@ -60,13 +59,18 @@ EdgeValues edge_margins(const Candidate& s, const Eigen::Vector2f& d_du, const E
   return {{reach(u.a, u.b), reach(v.a, v.b), far_u, far_v}};
 }
 
-/// Points inside of the square of a pixel such that their projections on both axes are evenly spread (Hammersley set).
+/// Distribution of a tent over -1..1 from a uniform one over 0..1. Tents of neighbouring pixels add up to one
+/// everywhere, so a thing thinner than a pixel has the same weight wherever it lies.
+float tent_quantile(float p) { return p < 0.5f ? std::sqrt(2 * p) - 1 : 1 - std::sqrt(2 * (1 - p)); }
+
+/// Points around a pixel whose projections on both axes are spread evenly (Hammersley set) under a tent.
 std::array<Eigen::Vector2f, kSubsamples> make_subsamples() {
   std::array<Eigen::Vector2f, kSubsamples> points;
   for (int i = 0; i < kSubsamples; ++i) {
-    const int reversed = ((i & 1) << 3) | ((i & 2) << 1) | ((i & 4) >> 1) | ((i & 8) >> 3);
-    points[i] = {kSpread * ((static_cast<float>(i) + 0.5f) / kSubsamples - 0.5f),
-                 kSpread * ((static_cast<float>(reversed) + 0.5f) / kSubsamples - 0.5f)};
+    int reversed = 0;
+    for (int bit = 1; bit < kSubsamples; bit *= 2) reversed = 2 * reversed + ((i & bit) != 0 ? 1 : 0);
+    points[i] = {tent_quantile((static_cast<float>(i) + 0.5f) / kSubsamples),
+                 tent_quantile((static_cast<float>(reversed) + 0.5f) / kSubsamples)};
   }
   return points;
 }

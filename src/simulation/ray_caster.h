@@ -2,7 +2,7 @@
 
 // Idea: the rays of a small block of pixels share one traversal of the scene. A surface's inverse depth and its
 // surface coordinates times inverse depth are linear in the ray direction (x, y, 1), so testing it against all rays of
-// the block is a short loop without branches. Pixels that an outline or a crease passes are sampled 16-fold.
+// the block is a short loop without branches. Pixels that an outline or a crease passes are sampled many times.
 
 #include <functional>
 #include <vector>

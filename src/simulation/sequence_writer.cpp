@@ -11,6 +11,7 @@
 #include <locale>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "io/image_file.h"
 #include "io/text_file.h"
@@ -167,6 +168,17 @@ void write_depth(const fs::path& path, const Image<float>& depth, double unit) {
   write_png(path, std::as_const(image).view());
 }
 
+/// Names of the frames that a folder contains.
+std::vector<std::string> frame_files(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string(), stem = entry.path().stem().string();
+    const bool digits = stem.size() == 5 && stem.find_first_not_of("0123456789") == std::string::npos;
+    if (digits && entry.path().extension() == ".png") names.push_back(name);
+  }
+  return names;
+}
+
 [[noreturn]] void fail(zip_t* archive, const fs::path& path) {
   const std::string reason = archive != nullptr ? zip_strerror(archive) : "cannot be created";
   if (archive != nullptr) zip_discard(archive);
@@ -187,13 +199,25 @@ void pack(const fs::path& images, const fs::path& archive_path, int frames) {
       fail(archive, archive_path);
   }
   if (zip_close(archive) < 0) fail(archive, archive_path);
-  fs::remove_all(images);
+  for (const std::string& name : frame_files(images)) fs::remove(images / name);
+  if (fs::is_empty(images)) fs::remove(images);
 }
 
-void make_folder(const fs::path& folder) {
+/// An empty folder of frames: what an earlier run left there (files named by five digits) is removed.
+void make_frame_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(folder.string(), "cannot be made (" + error.message() + ")", "choose another folder");
+  for (const std::string& name : frame_files(folder)) fs::remove(folder / name);
+}
+
+/// Removes what an earlier run wrote and this one does not.
+void remove_leftovers(const fs::path& folder) {
+  for (const char* name : {"images.zip", "pcalib.txt", "vignette.png"}) fs::remove(folder / name);
+  const fs::path depth = folder / "depth";
+  if (!fs::is_directory(depth)) return;
+  for (const std::string& name : frame_files(depth)) fs::remove(depth / name);
+  if (fs::is_empty(depth)) fs::remove(depth);
 }
 
 }  // namespace
@@ -205,8 +229,9 @@ double depth_unit(const SequenceRecipe& recipe) {
 int write_sequence(const SimulatedSequence& sequence, const SequenceRecipe& recipe, const fs::path& folder,
                    const WriteOptions& options, ThreadPool& pool, const std::function<bool(int)>& progress) {
   const fs::path images = folder / "images";
-  make_folder(images);
-  if (options.depth) make_folder(folder / "depth");
+  make_frame_folder(images);
+  remove_leftovers(folder);
+  if (options.depth) make_frame_folder(folder / "depth");
   write_camera(folder / "camera.txt", sequence.calibration());
   write_photometry(folder, sequence.calibration().photometric);
   // Whole frames in parallel: no thread waits for another within a frame.

@@ -87,10 +87,12 @@ SimulatedSequence::SimulatedSequence(World world, const SequenceOptions& options
 void SimulatedSequence::plan_exposures(const CameraModel& model) {
   const CameraRays thumbnail = rays_of(model, 40.0 / options_.camera.width);
   const RayCaster caster(world_.scene, thumbnail);
-  constexpr int kStride = 6;
+  // A thumbnail every quarter of a second.
+  const double step = size() > 1 ? (times_.back() - times_.front()) / (size() - 1) : 1.0;
+  const int stride = std::max(1, static_cast<int>(std::lround(0.25 / step)));
   std::vector<double> means;
   double sum = 0;
-  for (int i = 0; i < size(); i += kStride) {
+  for (int i = 0; i < size(); i += stride) {
     Image<float> radiance;
     caster.render({T_world_camera(i)}, {&radiance, nullptr}, nullptr);
     means.push_back(std::max(mean_of(radiance), 0.02));
@@ -104,7 +106,7 @@ void SimulatedSequence::plan_exposures(const CameraModel& model) {
   for (int i = 0; i < size(); ++i) {
     double weight = 0, mean = 0;
     for (int k = 0; k < static_cast<int>(means.size()); ++k) {
-      const double distance = (times_[std::min(k * kStride, size() - 1)] - times_[i]) / 0.8;
+      const double distance = (times_[std::min(k * stride, size() - 1)] - times_[i]) / 0.8;
       if (std::abs(distance) > 4) continue;
       const double w = std::exp(-0.5 * distance * distance);
       weight += w;

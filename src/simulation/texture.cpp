@@ -21,6 +21,12 @@ float fast_log2(float x) {
   return static_cast<float>(exponent) + (-0.34484843f * mantissa + 2.02466578f) * mantissa - 1.67487759f;
 }
 
+/// Without the library call that std::floor is on the oldest processors.
+int floor_to_int(float x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - static_cast<int>(x < static_cast<float>(truncated));
+}
+
 int wrapped(int i, int size, TextureWrap wrap) {
   if (wrap == TextureWrap::kRepeat) return ((i % size) + size) % size;
   return std::clamp(i, 0, size - 1);
@@ -159,11 +165,11 @@ bool Texture::fetch(int level, float s, float t, float& value) const {
   float x = s * scale - 0.5f, y = t * scale - 0.5f;
   int ix, iy;
   if (wrap_ == TextureWrap::kRepeat) {
-    const float fx = std::floor(x), fy = std::floor(y);
-    ix = static_cast<int>(fx) & (l.width - 1);
-    iy = static_cast<int>(fy) & (l.height - 1);
-    x -= fx;
-    y -= fy;
+    const int floor_x = floor_to_int(x), floor_y = floor_to_int(y);
+    ix = floor_x & (l.width - 1);
+    iy = floor_y & (l.height - 1);
+    x -= static_cast<float>(floor_x);
+    y -= static_cast<float>(floor_y);
   } else {
     x = std::clamp(x, 0.0f, static_cast<float>(l.width - 1));
     y = std::clamp(y, 0.0f, static_cast<float>(l.height - 1));
@@ -190,7 +196,8 @@ float Texture::fetch_or_coarser(int level, float s, float t) const {
 }
 
 float Texture::probe(float s, float t, float width) const {
-  const float lod = std::clamp(fast_log2(std::max(width, 1.0f)), 0.0f, static_cast<float>(level_count() - 1));
+  if (width <= 1) return fetch_or_coarser(0, s, t);
+  const float lod = std::clamp(fast_log2(width), 0.0f, static_cast<float>(level_count() - 1));
   const int level = static_cast<int>(lod);
   const float fraction = lod - static_cast<float>(level);
   const float fine = fetch_or_coarser(level, s, t);
