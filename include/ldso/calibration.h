@@ -37,8 +37,8 @@ struct PinholeIntrinsics {
 
 struct Rectification {
   RectificationMode mode = RectificationMode::kNone;
-  int width = 0;   ///< Output size [px]; 0: as the input.
-  int height = 0;  ///< Output size [px]; 0: as the input.
+  int width = 0;                          ///< Output size [px]; 0: as the input.
+  int height = 0;                         ///< Output size [px]; 0: as the input.
   PinholeIntrinsics explicit_intrinsics;  ///< Read for kExplicit only.
 };
 

@@ -13,13 +13,13 @@ enum class SelectionStrategy { kCorners, kGradient, kRandom };
 /// Choice of the candidate points of a keyframe [L III-B, D 3.2].
 struct SelectionSettings {
   SelectionStrategy strategy = SelectionStrategy::kCorners;
-  int candidates = 1500;              ///< Wanted number of new candidate points a keyframe.
-  double corner_quality = 0.01;       ///< Least Shi-Tomasi score of a corner, relative to the best of the frame.
-  int corner_radius = 5;              ///< Non-maximum suppression radius of corners [px].
-  int corner_cell = 24;               ///< Side of the grid cell in which corners compete [px].
-  double gradient_threshold = 7.0;    ///< Added to the block median of the gradient [grey levels / px].
-  int block_size = 32;                ///< Side of the blocks that have their own threshold [px].
-  int seed = 1;                       ///< Of the random choices.
+  int candidates = 1500;            ///< Wanted number of new candidate points a keyframe.
+  double corner_quality = 0.01;     ///< Least Shi-Tomasi score of a corner, relative to the best of the frame.
+  int corner_radius = 5;            ///< Non-maximum suppression radius of corners [px].
+  int corner_cell = 24;             ///< Side of the grid cell in which corners compete [px].
+  double gradient_threshold = 7.0;  ///< Added to the block median of the gradient [grey levels / px].
+  int block_size = 32;              ///< Side of the blocks that have their own threshold [px].
+  int seed = 1;                     ///< Of the random choices.
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -36,16 +36,16 @@ struct SelectionSettings {
 
 /// How photometry is used [D 2.1].
 struct PhotometrySettings {
-  bool use_response = true;        ///< Undo the camera's response if it is known.
-  bool use_vignette = true;        ///< Undo the vignette if it is known.
-  bool use_exposure = true;        ///< Use the exposure times if they are known.
-  double overexposed = 253.0;      ///< Raw grey levels from here on carry no information.
+  bool use_response = true;    ///< Undo the camera's response if it is known.
+  bool use_vignette = true;    ///< Undo the vignette if it is known.
+  bool use_exposure = true;    ///< Use the exposure times if they are known.
+  double overexposed = 253.0;  ///< Raw grey levels from here on carry no information.
   /// Precision of the priors that draw each frame's log brightness factor a and offset b to 0, if response and exposure
   /// are known. Much weaker than published: images are never calibrated so well that holding a and b costs nothing
   /// (measured: a room's ATE is 4 times smaller than with 1e10), yet free ones random-walk and take the map along.
   double prior_a = 1e6;
   double prior_b = 1e2;
-  double unknown_prior_a = 1e3;    ///< The same if response or exposure is unknown.
+  double unknown_prior_a = 1e3;  ///< The same if response or exposure is unknown.
   double unknown_prior_b = 1e1;
 
   template <class Self, class Visitor>
@@ -63,16 +63,16 @@ struct PhotometrySettings {
 
 /// Sliding-window photometric bundle adjustment and marginalization [D 2.3].
 struct WindowSettings {
-  int iterations = 6;                   ///< At most, for each keyframe.
-  double marginalization_weight = 0.25; ///< Marginalized residuals are correlated: their information is scaled.
+  int iterations = 6;                    ///< At most, for each keyframe.
+  double marginalization_weight = 0.25;  ///< Marginalized residuals are correlated: their information is scaled.
   /// Precision of the given focal lengths [1 / px^2, in units of squared grey levels]. Weak: 1 % of the focal length is
   /// worth 30 % of scale drift in driving, and windows determine it well.
   double focal_prior = 1e3;
   /// Precision of the given principal point, likewise. Strong: a driving camera cannot tell it from its own pitch.
   double center_prior = 2e6;
-  double idepth_prior = 2500;           ///< Precision of the initializer's inverse depths (their mean is 1).
-  double least_idepth_hessian = 50;     ///< Weaker points are dropped, not marginalized.
-  int active_points = 2000;             ///< Wanted number of points in the window.
+  double idepth_prior = 2500;        ///< Precision of the initializer's inverse depths (their mean is 1).
+  double least_idepth_hessian = 50;  ///< Weaker points are dropped, not marginalized.
+  int active_points = 2000;          ///< Wanted number of points in the window.
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -112,10 +112,10 @@ struct KeyframeSettings {
 
 /// Two-frame alignment of each new frame [D 3.1].
 struct TrackingSettings {
-  double cutoff = 20;             ///< Residuals beyond this are saturated [grey levels]; doubles while most are.
-  double good_ratio = 1.5;        ///< A residual within this factor of the last frame's is accepted at once.
-  double lost_rmse = 30;          ///< Worse alignments are no alignments [grey levels].
-  double least_in_view = 0.05;    ///< Share of the map's points that must fall into the image.
+  double cutoff = 20;           ///< Residuals beyond this are saturated [grey levels]; doubles while most are.
+  double good_ratio = 1.5;      ///< A residual within this factor of the last frame's is accepted at once.
+  double lost_rmse = 30;        ///< Worse alignments are no alignments [grey levels].
+  double least_in_view = 0.05;  ///< Share of the map's points that must fall into the image.
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -128,10 +128,10 @@ struct TrackingSettings {
 
 /// Epipolar search of immature points and their activation [D 3.2].
 struct TracingSettings {
-  double search_length = 0.027;      ///< Longest search, as a share of width + height.
-  double least_quality = 3.0;        ///< Second-best over best energy a point needs to be activated.
-  double largest_interval = 8.0;     ///< Longest last search interval a point may have to be activated [px].
-  double least_idepth_hessian = 100; ///< A point whose depth is determined more weakly is not activated.
+  double search_length = 0.027;       ///< Longest search, as a share of width + height.
+  double least_quality = 3.0;         ///< Second-best over best energy a point needs to be activated.
+  double largest_interval = 8.0;      ///< Longest last search interval a point may have to be activated [px].
+  double least_idepth_hessian = 100;  ///< A point whose depth is determined more weakly is not activated.
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {

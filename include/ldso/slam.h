@@ -46,8 +46,11 @@ struct SlamResult {
   std::vector<FrameRecord> frames;        ///< Of all frames, in the order in which they came.
   std::vector<KeyframeUpdate> keyframes;  ///< With final poses and points, in the order of their frame ids.
   PinholeIntrinsics camera;               ///< Of the rectified images, as estimated: the points' pixels are its own.
-  int restarts = 0;                       ///< How often the map was lost and a new one begun.
-  int skipped = 0;                        ///< Frames that could not be used.
+  /// Frames with which a map was there: that of the first map, then one a restart. Frames before them that waited for
+  /// the map may have got their poses afterwards.
+  std::vector<std::int64_t> initializations;
+  int restarts = 0;  ///< How often the map was lost and a new one begun.
+  int skipped = 0;   ///< Frames that could not be used.
   std::map<std::string, StageTime> stage_times;
 
   /// Poses of all frames that have one, in the order of `frames`: that of its reference keyframe, as finally

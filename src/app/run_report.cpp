@@ -104,14 +104,6 @@ Json untracked_json(const RunSummary& summary) {
   return stretches;
 }
 
-/// The frame with which the map was there; the frame that began it gets its pose afterwards.
-Json first_tracked_json(const SlamResult& result) {
-  for (const FrameRecord& frame : result.frames) {
-    if (frame.state == TrackingState::kTracked) return frame.frame_id;
-  }
-  return nullptr;
-}
-
 Json evaluation_json(const RunEvaluation& evaluation) {
   if (evaluation.result) return Json::parse(result_json(*evaluation.result));
   return {{"problem", evaluation.problem}};
@@ -192,7 +184,8 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["sequence"] = sequence_json(summary, dataset);
   json["settings"] = settings_to_json(summary.settings);
   json["counts"] = counts_json(summary);
-  json["first_tracked_frame"] = first_tracked_json(run.result);
+  json["first_tracked_frame"] = summary.posed.empty() ? Json() : Json(summary.posed.front());
+  json["initialized_at"] = run.result.initializations;
   json["interrupted"] = run.stopped;
   json["error"] = run.error.empty() ? Json() : Json(run.error);
   json["timing"] = timing_json(run);

@@ -54,6 +54,8 @@ const std::map<std::string, SettingRange, std::less<>>& ranges() {
       {"tracing.least_quality", {1, 1000}},
       {"tracing.largest_interval", {0.1, 1000}},
       {"tracing.least_idepth_hessian", {0, kHuge}},
+      {"initializer.plenty_tracked", {0, 1}},
+      {"initializer.good_parallax_angle", {0, 90}},
       {"initializer.points", {50, 100000}},
       {"initializer.min_parallax", {0, 1000}},
       {"initializer.min_parallax_angle", {0, 90}},

@@ -22,10 +22,10 @@ using V = hn::Vec<Block>;
 
 /// One block of eight points: where they land and, after sampling, what they contribute.
 struct alignas(64) BlockBuffer {
-  float x[kBlock], y[kBlock];            // Normalized coordinates in the new camera.
-  float u[kBlock], v[kBlock];            // Pixels in the new image.
-  float idepth[kBlock];                  // In the new camera.
-  float in_view[kBlock];                 // 1 or 0.
+  float x[kBlock], y[kBlock];  // Normalized coordinates in the new camera.
+  float u[kBlock], v[kBlock];  // Pixels in the new image.
+  float idepth[kBlock];        // In the new camera.
+  float in_view[kBlock];       // 1 or 0.
   float samples[4 * kBlock];
 };
 
@@ -37,7 +37,8 @@ HWY_INLINE V load_some(const float* p, int count) {
   return hn::Load(d, tail);
 }
 
-HWY_INLINE void warp_block(const AlignmentPoints& points, int begin, int count, const AlignmentWarp& w, BlockBuffer& buffer) {
+HWY_INLINE void warp_block(const AlignmentPoints& points, int begin, int count, const AlignmentWarp& w,
+                           BlockBuffer& buffer) {
   const Block d;
   const V one = hn::Set(d, 1.0f);
   for (int i = 0; i < kBlock; i += static_cast<int>(hn::Lanes(d))) {
@@ -47,7 +48,8 @@ HWY_INLINE void warp_block(const AlignmentPoints& points, int begin, int count, 
     const V v = load_some(points.v.data() + at, left);
     const V idepth = load_some(points.idepth.data() + at, left);
     const auto row = [&](int r) {
-      const V rotated = hn::MulAdd(hn::Set(d, w.RKi[3 * r]), u, hn::MulAdd(hn::Set(d, w.RKi[3 * r + 1]), v, hn::Set(d, w.RKi[3 * r + 2])));
+      const V rotated = hn::MulAdd(hn::Set(d, w.RKi[3 * r]), u,
+                                   hn::MulAdd(hn::Set(d, w.RKi[3 * r + 1]), v, hn::Set(d, w.RKi[3 * r + 2])));
       return hn::MulAdd(hn::Set(d, w.t[r]), idepth, rotated);
     };
     const V z = row(2);
@@ -117,7 +119,8 @@ HWY_INLINE void accumulate_block(const AlignmentPoints& points, int begin, int c
   }
 }
 
-void align_points_simd(const AlignmentPoints& points, int begin, int end, const AlignmentWarp& warp, AlignmentSums& out) {
+void align_points_simd(const AlignmentPoints& points, int begin, int end, const AlignmentWarp& warp,
+                       AlignmentSums& out) {
   const Block d;
   Accumulators sums;
   for (V& product : sums.products) product = hn::Zero(d);
@@ -170,7 +173,8 @@ void add_point_reference(const AlignmentPoints& points, int i, const AlignmentWa
   }
   const float x = p[0] / p[2], y = p[1] / p[2], idepth = points.idepth[i] / p[2];
   const float u = w.fx * x + w.cx, v = w.fy * y + w.cy;
-  const bool inside = p[2] > 1e-4f && u > 1 && v > 1 && u < static_cast<float>(w.width) - 2 && v < static_cast<float>(w.height) - 2;
+  const bool inside =
+      p[2] > 1e-4f && u > 1 && v > 1 && u < static_cast<float>(w.width) - 2 && v < static_cast<float>(w.height) - 2;
   if (!inside) return;
   const Texel t = bilinear(w, u, v);
   if (!(t.valid > 0.999f)) return;
@@ -184,8 +188,15 @@ void add_point_reference(const AlignmentPoints& points, int i, const AlignmentWa
   const float weight = std::fabs(r) <= w.huber ? 1.0f : w.huber / std::fabs(r);
   sums.energy += weight * r * r * (2 - weight);
   const float dx = t.dx * w.fx, dy = t.dy * w.fy, along = x * dx + y * dy;
-  const float J[kAlignmentDof + 1] = {idepth * dx,    idepth * dy, -idepth * along, -(dy + y * along),
-                                      dx + x * along, x * dy - y * dx, -w.factor * (points.intensity[i] - w.ref_b), -1, r};
+  const float J[kAlignmentDof + 1] = {idepth * dx,
+                                      idepth * dy,
+                                      -idepth * along,
+                                      -(dy + y * along),
+                                      dx + x * along,
+                                      x * dy - y * dx,
+                                      -w.factor * (points.intensity[i] - w.ref_b),
+                                      -1,
+                                      r};
   int k = 0;
   for (int a = 0; a <= kAlignmentDof; ++a) {
     for (int b = a; b <= kAlignmentDof; ++b) sums.products[k++] += weight * J[a] * J[b];

@@ -12,9 +12,9 @@ namespace ldso {
 
 /// Points of one pyramid level of the reference, structure of arrays.
 struct AlignmentPoints {
-  std::vector<float> u, v;        ///< Pixel of this level.
-  std::vector<float> idepth;      ///< In the reference.
-  std::vector<float> intensity;   ///< In the reference.
+  std::vector<float> u, v;       ///< Pixel of this level.
+  std::vector<float> idepth;     ///< In the reference.
+  std::vector<float> intensity;  ///< In the reference.
   int size() const { return static_cast<int>(u.size()); }
 };
 
@@ -23,12 +23,12 @@ struct AlignmentWarp {
   int width = 0;
   int height = 0;
   float fx = 0, fy = 0, cx = 0, cy = 0;
-  float RKi[9] = {};              ///< R K^-1, row-major, reference to new frame.
+  float RKi[9] = {};  ///< R K^-1, row-major, reference to new frame.
   float t[3] = {};
-  float factor = 1, offset = 0;   ///< I_new = factor * I_ref + offset.
-  float ref_b = 0;                ///< b of the reference.
-  float huber = 9;                ///< [grey levels]
-  float cutoff = 20;              ///< Residuals beyond are saturated [grey levels].
+  float factor = 1, offset = 0;  ///< I_new = factor * I_ref + offset.
+  float ref_b = 0;               ///< b of the reference.
+  float huber = 9;               ///< [grey levels]
+  float cutoff = 20;             ///< Residuals beyond are saturated [grey levels].
 };
 
 /// Variables: translation, rotation (left tangent of T_new_ref), a and b of the new frame.

@@ -85,7 +85,8 @@ AlignmentPoints collect(const DepthGrid& grid, const Image<Texel>& image) {
 bool project_sample(const PatternWarp& warp, const ActivePoint& point, DepthSample& sample) {
   float p[3];
   for (int r = 0; r < 3; ++r) {
-    p[r] = warp.KRKi[3 * r] * point.u + warp.KRKi[3 * r + 1] * point.v + warp.KRKi[3 * r + 2] + warp.Kt[r] * point.idepth;
+    p[r] =
+        warp.KRKi[3 * r] * point.u + warp.KRKi[3 * r + 1] * point.v + warp.KRKi[3 * r + 2] + warp.Kt[r] * point.idepth;
   }
   if (!(p[2] > 0)) return false;
   sample.u = p[0] / p[2];

@@ -64,9 +64,19 @@ CoarseTracker::LevelSystem CoarseTracker::evaluate(const PreparedFrame& frame, i
   const Eigen::Matrix3d RKi = estimate.T_new_ref.rotation_matrix() * Ki;
   const BrightnessTransfer transfer =
       brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, estimate.brightness);
-  AlignmentWarp warp{image.data(), image.width(), image.height(), static_cast<float>(camera.fx), static_cast<float>(camera.fy),
-                     static_cast<float>(camera.cx), static_cast<float>(camera.cy), {}, {}, static_cast<float>(transfer.factor),
-                     static_cast<float>(transfer.offset), static_cast<float>(ref_brightness_.b), kHuberThreshold,
+  AlignmentWarp warp{image.data(),
+                     image.width(),
+                     image.height(),
+                     static_cast<float>(camera.fx),
+                     static_cast<float>(camera.fy),
+                     static_cast<float>(camera.cx),
+                     static_cast<float>(camera.cy),
+                     {},
+                     {},
+                     static_cast<float>(transfer.factor),
+                     static_cast<float>(transfer.offset),
+                     static_cast<float>(ref_brightness_.b),
+                     kHuberThreshold,
                      static_cast<float>(cutoff)};
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) warp.RKi[3 * r + c] = static_cast<float>(RKi(r, c));
@@ -110,7 +120,8 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
     Matrix8 H = system.H;
     H.diagonal() *= 1 + lambda;
     const Vector8 scale = (H.diagonal().array() + 1e-6).sqrt().inverse();
-    const Vector8 step = -scale.cwiseProduct((scale.asDiagonal() * H * scale.asDiagonal()).ldlt().solve(scale.cwiseProduct(system.b)));
+    const Vector8 step =
+        -scale.cwiseProduct((scale.asDiagonal() * H * scale.asDiagonal()).ldlt().solve(scale.cwiseProduct(system.b)));
     if (!step.allFinite()) break;
     const Estimate tried{SE3d::exp(step.head<6>()) * estimate.T_new_ref,
                          {estimate.brightness.a + step[6], estimate.brightness.b + step[7]},
@@ -123,7 +134,8 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
     } else {
       lambda = std::max(lambda * 4, 1e-3);
     }
-    const double scaled_step = map_.mean_idepth * step.head<3>().norm() + step.segment<3>(3).norm() + 0.1 * std::abs(step[6]) + 1e-3 * std::abs(step[7]);
+    const double scaled_step = map_.mean_idepth * step.head<3>().norm() + step.segment<3>(3).norm() +
+                               0.1 * std::abs(step[6]) + 1e-3 * std::abs(step[7]);
     if (scaled_step < kSmallStep) break;
   }
   return system;
@@ -151,8 +163,8 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
   result.T_new_ref = estimate.T_new_ref;
   result.brightness = estimate.brightness;
   result.in_view = system.count / finest_points;
-  const double log_factor = std::log(
-      brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, estimate.brightness).factor);
+  const double log_factor =
+      std::log(brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, estimate.brightness).factor);
   result.good = std::abs(log_factor) < kLargestLogBrightness + std::abs(std::log(frame.exposure_ms / ref_exposure_)) &&
                 std::abs(estimate.brightness.b) < kLargestOffset;
   return result;
@@ -161,8 +173,8 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
 FrameMotion CoarseTracker::motion(const PreparedFrame& frame, const AlignmentResult& result) const {
   FrameMotion motion;
   motion.rmse = result.rmse();
-  motion.log_brightness = std::log(
-      brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, result.brightness).factor);
+  motion.log_brightness =
+      std::log(brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, result.brightness).factor);
   const AlignmentPoints& points = map_.levels.front();
   const Eigen::Matrix3d R = result.T_new_ref.rotation_matrix();
   const Eigen::Vector3d t = result.T_new_ref.translation();

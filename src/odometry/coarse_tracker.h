@@ -30,8 +30,8 @@ class CoarseTracker {
   /// From now on frames are aligned to the newest keyframe of the window.
   void set_reference(const Window& window);
 
-  /// Aligns `frame` starting from one hypothesis; `prior` holds its brightness. Gives up at the first level that is worse than `limits` (root mean
-  /// energies by level, finest first; empty: no limits) times the setting `good_ratio`.
+  /// Aligns `frame` starting from one hypothesis; `prior` holds its brightness. Gives up at the first level that is
+  /// worse than `limits` (root mean energies by level, finest first; empty: no limits) times the setting `good_ratio`.
   AlignmentResult align(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
                         const BrightnessPrior& prior, const std::vector<double>& limits) const;
 

@@ -50,7 +50,8 @@ bool make_immature_point(const Image<Texel>& image, float u, float v, ImmaturePo
   point.energy_threshold = kOutlierEnergy;
   for (int i = 0; i < kPatternSize; ++i) {
     const float x = u + static_cast<float>(kPattern[i].dx), y = v + static_cast<float>(kPattern[i].dy);
-    if (x < 1 || y < 1 || x >= static_cast<float>(image.width()) - 2 || y >= static_cast<float>(image.height()) - 2) return false;
+    if (x < 1 || y < 1 || x >= static_cast<float>(image.width()) - 2 || y >= static_cast<float>(image.height()) - 2)
+      return false;
     const Texel t = bilinear(image.view(), x, y);
     if (!(t.valid > 0.999f) || !std::isfinite(t.intensity)) return false;
     const float gradient2 = t.dx * t.dx + t.dy * t.dy;
@@ -76,7 +77,8 @@ bool EpipolarTracer::find_segment(const ImmaturePoint& point, const PatternWarp&
     y = (py + warp.Kt[1] * idepth) / z;
     return z > 1e-3f;
   };
-  const float max_x = static_cast<float>(warp.width) - kBorder - 1, max_y = static_cast<float>(warp.height) - kBorder - 1;
+  const float max_x = static_cast<float>(warp.width) - kBorder - 1,
+              max_y = static_cast<float>(warp.height) - kBorder - 1;
   const auto inside = [&](float x, float y) { return x > kBorder && y > kBorder && x < max_x && y < max_y; };
   status = TraceStatus::kOutOfView;
   if (!project(point.idepth_min, segment.far_x, segment.far_y) || !inside(segment.far_x, segment.far_y)) return false;
@@ -93,7 +95,8 @@ bool EpipolarTracer::find_segment(const ImmaturePoint& point, const PatternWarp&
   segment.dy /= segment.length;
   if (!bounded || segment.length > longest_search_) segment.length = longest_search_;
   // An unbounded search ends at the image's border.
-  while (segment.length > 1 && !inside(segment.far_x + segment.length * segment.dx, segment.far_y + segment.length * segment.dy)) {
+  while (segment.length > 1 &&
+         !inside(segment.far_x + segment.length * segment.dx, segment.far_y + segment.length * segment.dy)) {
     segment.length -= 1;
   }
   const float along = segment.dx * (point.gxx * segment.dx + point.gxy * segment.dy) +
@@ -175,7 +178,8 @@ TraceStatus EpipolarTracer::trace(ImmaturePoint& point, const PatternWarp& warp)
     segment.pattern.offset_y[i] = warp.KRKi[3] * dx + warp.KRKi[4] * dy;
     segment.pattern.intensity[i] = warp.factor * point.patch.intensity[i] + warp.offset;
     // A view that turned so far that the pattern leaves its margin cannot be compared pixel by pixel.
-    if (!(std::fabs(segment.pattern.offset_x[i]) <= kPatternReach && std::fabs(segment.pattern.offset_y[i]) <= kPatternReach)) {
+    if (!(std::fabs(segment.pattern.offset_x[i]) <= kPatternReach &&
+          std::fabs(segment.pattern.offset_y[i]) <= kPatternReach)) {
       return point.status = TraceStatus::kOutOfView;
     }
   }

@@ -30,23 +30,22 @@ struct FrameState {
 
   SE3d T_c_w() const { return SE3d::exp(delta.head<6>()) * T_c_w_lin; }
   Brightness brightness() const { return {brightness_lin.a + delta[6], brightness_lin.b + delta[7]}; }
-
 };
 
 struct Keyframe {
   std::shared_ptr<const PreparedFrame> frame;
-  int index = 0;                 ///< Position in the window, oldest first.
+  int index = 0;  ///< Position in the window, oldest first.
   FrameState state;
   FrameVector delta_backup = FrameVector::Zero();
-  FrameVector prior = FrameVector::Zero();  ///< Precision of a diagonal prior around `prior_mean`.
-  FrameVector prior_mean = FrameVector::Zero();  ///< In the coordinates of `state.delta`.
+  FrameVector prior = FrameVector::Zero();            ///< Precision of a diagonal prior around `prior_mean`.
+  FrameVector prior_mean = FrameVector::Zero();       ///< In the coordinates of `state.delta`.
   float outlier_energy = 8.0f * 8.0f * kPatternSize;  ///< Energy beyond which a residual is an outlier.
-  bool in_prior = false;         ///< Marginalized residuals touch it: its point of linearization is fixed.
-  bool leaving = false;          ///< To be marginalized at the end of this keyframe's turn.
+  bool in_prior = false;  ///< Marginalized residuals touch it: its point of linearization is fixed.
+  bool leaving = false;   ///< To be marginalized at the end of this keyframe's turn.
   std::vector<ImmaturePoint> immature;
   std::vector<ActivePoint> points;
   std::vector<MapPoint> finished;  ///< Points that were marginalized: they belong to the map.
-  int dropped = 0;               ///< Points that were given up.
+  int dropped = 0;                 ///< Points that were given up.
 
   /// Moves the point of linearization to the estimate; only while no prior touches the frame.
   void relinearize() {

@@ -28,9 +28,9 @@ Odometry::Odometry(const PinholeIntrinsics& camera, bool calibrated, const Setti
       calibrated_(calibrated),
       settings_(settings),
       pool_(pool),
-      initializer_(std::make_unique<Initializer>(camera, settings.initializer, settings.selection, pool,
-                                                 calibrated ? BrightnessPrior{settings.photometry.prior_a, settings.photometry.prior_b}
-                                                            : BrightnessPrior{})),
+      initializer_(std::make_unique<Initializer>(
+          camera, settings.initializer, settings.selection, pool,
+          calibrated ? BrightnessPrior{settings.photometry.prior_a, settings.photometry.prior_b} : BrightnessPrior{})),
       selector_(make_point_selector(settings.selection)),
       tracker_(settings.tracking, pool),
       tracer_(settings.tracing, camera.width, camera.height),
@@ -94,7 +94,8 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
   T_last_ref_ = SE3d();
   // The motion since the first frame, spread over the frames between.
   const auto frames = static_cast<double>(std::max<std::int64_t>(1, frame->id - first->id));
-  T_last_previous_ = SE3d::exp((newest().state.T_c_w() * window_.keyframes.front()->state.T_c_w().inverse()).log() / frames);
+  T_last_previous_ =
+      SE3d::exp((newest().state.T_c_w() * window_.keyframes.front()->state.T_c_w().inverse()).log() / frames);
   track_waiting(output.late);
 }
 
@@ -118,7 +119,9 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
       continue;
     }
     const AlignmentResult result = tracker_.align(*frame, T_frame_ref, brightness, brightness_prior(*frame), {});
-    if (!result.good || result.rmse() > settings_.tracking.lost_rmse || result.in_view < settings_.tracking.least_in_view) continue;
+    if (!result.good || result.rmse() > settings_.tracking.lost_rmse ||
+        result.in_view < settings_.tracking.least_in_view)
+      continue;
     T_frame_ref = result.T_new_ref;
     brightness = result.brightness;
     record.keyframe_id = newest().id();
@@ -239,9 +242,10 @@ void Odometry::trace_immature(const PreparedFrame& frame, const SE3d& T_c_w, con
   std::vector<Job> jobs;
   std::vector<PatternWarp> warps;
   for (auto& keyframe : window_.keyframes) {
-    const BrightnessTransfer transfer = brightness_transfer(keyframe->frame->exposure_ms, keyframe->state.brightness(),
-                                                            frame.exposure_ms, brightness);
-    warps.push_back(make_warp(T_c_w * keyframe->state.T_c_w().inverse(), window_.camera, transfer, frame.pyramid.levels.front()));
+    const BrightnessTransfer transfer =
+        brightness_transfer(keyframe->frame->exposure_ms, keyframe->state.brightness(), frame.exposure_ms, brightness);
+    warps.push_back(
+        make_warp(T_c_w * keyframe->state.T_c_w().inverse(), window_.camera, transfer, frame.pyramid.levels.front()));
     for (ImmaturePoint& point : keyframe->immature) jobs.push_back({&point, keyframe->index});
   }
   pool_.for_chunks(static_cast<int>(jobs.size()), 256, [&](int, int begin, int end) {
@@ -273,8 +277,8 @@ Keyframe& Odometry::add_keyframe(const std::shared_ptr<const PreparedFrame>& fra
   return newest();
 }
 
-bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
-                             OdometryOutput& output) {
+bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w,
+                             const Brightness& brightness, OdometryOutput& output) {
   const StageTimer timer(times_, "keyframe");
   Keyframe& keyframe = add_keyframe(frame, T_c_w, brightness);
   flag_leaving(settings_.keyframes, window_);
@@ -317,7 +321,8 @@ void Odometry::select_candidates(Keyframe& keyframe) {
   keyframe.immature.reserve(pixels.size());
   for (const SelectedPixel& pixel : pixels) {
     ImmaturePoint point;
-    if (!make_immature_point(keyframe.image(), static_cast<float>(pixel.x), static_cast<float>(pixel.y), point)) continue;
+    if (!make_immature_point(keyframe.image(), static_cast<float>(pixel.x), static_cast<float>(pixel.y), point))
+      continue;
     point.is_corner = pixel.is_corner;
     point.density_scale = pixel.gradient_scale;
     keyframe.immature.push_back(point);

@@ -56,7 +56,8 @@ class Odometry {
   void handle_loss(const std::string& reason, OdometryOutput& output);
   void restart(const std::string& reason, OdometryOutput& output);
   void trace_immature(const PreparedFrame& frame, const SE3d& T_c_w, const Brightness& brightness);
-  Keyframe& add_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness);
+  Keyframe& add_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w,
+                         const Brightness& brightness);
   /// False if the optimization failed: the window is no longer usable.
   bool make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
                      OdometryOutput& output);
@@ -70,7 +71,8 @@ class Odometry {
   StageTimes times_;
 
   TrackingState state_ = TrackingState::kInitializing;
-  std::deque<std::shared_ptr<const PreparedFrame>> waiting_;  ///< Seen since the initializer's first frame, that included.
+  std::deque<std::shared_ptr<const PreparedFrame>>
+      waiting_;  ///< Seen since the initializer's first frame, that included.
   std::unique_ptr<Initializer> initializer_;
   std::unique_ptr<PointSelector> selector_;
   CoarseTracker tracker_;
@@ -80,13 +82,13 @@ class Odometry {
   Marginalizer marginalizer_;
   Window window_;
 
-  SE3d T_last_ref_;        ///< Last tracked frame relative to the newest keyframe.
-  SE3d T_last_previous_;   ///< Motion between the last two tracked frames.
+  SE3d T_last_ref_;       ///< Last tracked frame relative to the newest keyframe.
+  SE3d T_last_previous_;  ///< Motion between the last two tracked frames.
   Brightness last_brightness_;
   std::vector<double> last_rmse_;  ///< Of each level.
-  double first_rmse_ = 0;  ///< Of the first frame aligned to the newest keyframe.
-  SE3d T_start_world_;     ///< Where the window's first keyframe is put.
-  double start_scale_ = 1; ///< Mean depth there.
+  double first_rmse_ = 0;          ///< Of the first frame aligned to the newest keyframe.
+  SE3d T_start_world_;             ///< Where the window's first keyframe is put.
+  double start_scale_ = 1;         ///< Mean depth there.
   int lost_frames_ = 0;
   int keyframes_ = 0;
   int window_keyframes_made_ = 0;  ///< Since the window started.

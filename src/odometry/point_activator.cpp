@@ -55,7 +55,8 @@ std::vector<PointActivator::Candidate> PointActivator::choose(Window& window, co
   for (const auto& host : window.keyframes) {
     for (const ActivePoint& point : host->points) {
       float x = point.u, y = point.v;
-      if (host->index != newest && !project(pairs(host->index, newest).warp, point.u, point.v, point.idepth, x, y)) continue;
+      if (host->index != newest && !project(pairs(host->index, newest).warp, point.u, point.v, point.idepth, x, y))
+        continue;
       grid.add(x, y);
     }
   }
@@ -85,8 +86,8 @@ std::vector<PointActivator::Candidate> PointActivator::choose(Window& window, co
   return chosen;
 }
 
-std::optional<ActivePoint> PointActivator::refine(const ImmaturePoint& immature, const Keyframe& host, const Window& window,
-                                                  const FramePairs& pairs) const {
+std::optional<ActivePoint> PointActivator::refine(const ImmaturePoint& immature, const Keyframe& host,
+                                                  const Window& window, const FramePairs& pairs) const {
   std::array<PatternJob, kMostTargets> jobs;
   std::array<PatternSums, kMostTargets> sums, best_sums;
   std::array<int, kMostTargets> targets{};
@@ -111,7 +112,8 @@ std::optional<ActivePoint> PointActivator::refine(const ImmaturePoint& immature,
         continue;
       }
       energy += s.energy;
-      H += s.gxx * J.idepth.x() * J.idepth.x() + 2 * s.gxy * J.idepth.x() * J.idepth.y() + s.gyy * J.idepth.y() * J.idepth.y();
+      H += s.gxx * J.idepth.x() * J.idepth.x() + 2 * s.gxy * J.idepth.x() * J.idepth.y() +
+           s.gyy * J.idepth.y() * J.idepth.y();
       b += s.rgx * J.idepth.x() + s.rgy * J.idepth.y();
     }
     return energy;

@@ -10,7 +10,9 @@ SpacingGrid::SpacingGrid(int width, int height, float spacing)
       rows_(static_cast<int>(static_cast<float>(height) / spacing_) + 1),
       cells_(static_cast<std::size_t>(columns_) * rows_) {}
 
-int SpacingGrid::cell(float value, int cells) const { return std::clamp(static_cast<int>(value / spacing_), 0, cells - 1); }
+int SpacingGrid::cell(float value, int cells) const {
+  return std::clamp(static_cast<int>(value / spacing_), 0, cells - 1);
+}
 
 void SpacingGrid::add(float x, float y) { cells_[cell(y, rows_) * columns_ + cell(x, columns_)].push_back({x, y}); }
 

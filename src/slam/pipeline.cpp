@@ -38,7 +38,7 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
   }
   std::move(output.finished.begin(), output.finished.end(), std::back_inserter(result_.keyframes));
   for (FrameRecord& late : output.late) replace(std::move(late));
-  log_changes(output.frame);
+  note_change(output.frame);
   state_ = output.frame.state;
   return record(std::move(output.frame));
 }
@@ -66,7 +66,7 @@ void Pipeline::replace(FrameRecord late) {
   if (same != result_.frames.rend()) *same = std::move(late);
 }
 
-void Pipeline::log_changes(const FrameRecord& frame) {
+void Pipeline::note_change(const FrameRecord& frame) {
   if (odometry_.restarts() > restarts_) {
     restarts_ = odometry_.restarts();
     log_to(log_, LogLevel::kWarning, frame_name(frame) + ": " + frame.reason);
@@ -75,6 +75,7 @@ void Pipeline::log_changes(const FrameRecord& frame) {
   } else if (frame.state == TrackingState::kTracked && state_ == TrackingState::kLost) {
     log_to(log_, LogLevel::kInfo, frame_name(frame) + " is tracked again");
   } else if (frame.state == TrackingState::kTracked && state_ == TrackingState::kInitializing) {
+    result_.initializations.push_back(frame.frame_id);
     log_to(log_, LogLevel::kInfo, frame_name(frame) + ": the map is initialized");
   }
 }

@@ -47,7 +47,8 @@ class Pipeline {
   const FrameRecord& record(FrameRecord frame);
   /// What was said of an earlier frame is superseded.
   void replace(FrameRecord late);
-  void log_changes(const FrameRecord& frame);
+  /// Of the state of tracking: to the log and the result.
+  void note_change(const FrameRecord& frame);
 
   LogSink log_;
   FramePreprocessor preprocessor_;

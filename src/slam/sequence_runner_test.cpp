@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
+#include <algorithm>
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,10 @@ TEST(SequenceRunner, GivesWhatSlamGives) {
   EXPECT_GT(offline.seconds, 0);
 
   Slam slam(dataset.calibration(), Settings{});
-  for (int i = 0; i < 30; ++i) slam.process(draw_scene(i).view(), 0.1 * i);
+  for (int i = 0; i < 30; ++i) {
+    const Image<std::uint8_t> image = draw_scene(i);
+    slam.process(image.view(), 0.1 * i);
+  }
   const auto expected = slam.finish().trajectory();
   const auto poses = offline.result.trajectory();
   ASSERT_GT(expected.size(), 10u);
@@ -82,7 +86,7 @@ TEST(SequenceRunner, BadFramesAreSkippedWithTheirReason) {
   ASSERT_EQ(result.frames.size(), 30u);
   EXPECT_EQ(result.frames[18].reason, "skipped: image 18: cannot be decoded; replace it");
   EXPECT_EQ(result.frames[18].timestamp, dataset.timestamp(18));
-  EXPECT_NE(result.frames[22].reason.find("64x48"), std::string::npos) << result.frames[22].reason;
+  EXPECT_NE(result.frames[22].reason.find("64 x 48"), std::string::npos) << result.frames[22].reason;
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0].find("frame 18 is skipped: "), 0u) << warnings[0];
   for (const int frame : {17, 19, 21, 23, 29}) {

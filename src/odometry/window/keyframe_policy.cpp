@@ -31,7 +31,8 @@ int most_dispensable(const Window& window) {
     const Eigen::Vector3d here = center(*window.keyframes[i]);
     double crowding = 0;
     for (int j = 0; j + 1 < window.size(); ++j) {
-      if (j != i && !window.keyframes[j]->leaving) crowding += 1.0 / (1e-5 + (here - center(*window.keyframes[j])).norm());
+      if (j != i && !window.keyframes[j]->leaving)
+        crowding += 1.0 / (1e-5 + (here - center(*window.keyframes[j])).norm());
     }
     const double score = std::sqrt((here - newest).norm()) * crowding;
     if (score > worst_score) {

@@ -99,7 +99,8 @@ std::vector<KeyframeUpdate> Marginalizer::remove_keyframes(Window& window) {
       }
     }
     updates.push_back(make_update(*leaving, false));
-    window.prior.marginalize(Window::offset(i), kFrameDof, leaving->prior, -leaving->prior.cwiseProduct(leaving->prior_mean));
+    window.prior.marginalize(Window::offset(i), kFrameDof, leaving->prior,
+                             -leaving->prior.cwiseProduct(leaving->prior_mean));
     window.keyframes.erase(window.keyframes.begin() + i);
     window.renumber();
   }

@@ -102,7 +102,8 @@ double linearize(const Window& window, const FramePairs& pairs, const std::vecto
     const Keyframe& host = *window.keyframes[chunk.host];
     for (ActivePoint* point : chunk.points) {
       for (PointResidual& residual : point->residuals) {
-        const PatternJob job{&point->patch, &pairs(chunk.host, residual.target->index).warp, point->u, point->v, point->idepth};
+        const PatternJob job{&point->patch, &pairs(chunk.host, residual.target->index).warp, point->u, point->v,
+                             point->idepth};
         evaluate_patterns(&job, &residual.sums[slot], 1);
         energies[c] += classify(host, residual, slot);
       }
@@ -117,7 +118,8 @@ double reclassify(const Window& window, const std::vector<PointChunk>& chunks, i
   double energy = 0;
   for (const PointChunk& chunk : chunks) {
     for (ActivePoint* point : chunk.points) {
-      for (PointResidual& residual : point->residuals) energy += classify(*window.keyframes[chunk.host], residual, slot);
+      for (PointResidual& residual : point->residuals)
+        energy += classify(*window.keyframes[chunk.host], residual, slot);
     }
   }
   return energy;
@@ -180,12 +182,14 @@ void NormalEquationsBuilder::accumulate_chunk(const Window& window, const FrameP
       ProjectionJacobian J;
       if (!projection_jacobian(pair, point.u, point.v, point.idepth, J)) continue;
       accumulate_residual(s, J, system.H[target], system.b[target]);
-      const Eigen::Vector2f md(s.gxx * J.idepth.x() + s.gxy * J.idepth.y(), s.gxy * J.idepth.x() + s.gyy * J.idepth.y());
+      const Eigen::Vector2f md(s.gxx * J.idepth.x() + s.gxy * J.idepth.y(),
+                               s.gxy * J.idepth.x() + s.gyy * J.idepth.y());
       Eigen::Matrix<float, kFrameDof, 1> relative;
       relative << J.pose.transpose() * md, s.gxa * J.idepth.x() + s.gya * J.idepth.y(),
           s.gxb * J.idepth.x() + s.gyb * J.idepth.y();
       coupling.segment<kFrameDof>(Window::offset(target)) += relative.transpose();
-      coupling.segment<kFrameDof>(Window::offset(chunk.host)) += (pair.host_adjoint_f.transpose() * relative).transpose();
+      coupling.segment<kFrameDof>(Window::offset(chunk.host)) +=
+          (pair.host_adjoint_f.transpose() * relative).transpose();
       coupling.head<kCameraDof>() += (J.camera.transpose() * md).transpose();
       hessian += J.idepth.dot(md);
       gradient += s.rgx * J.idepth.x() + s.rgy * J.idepth.y();

@@ -47,7 +47,7 @@ using RelativeMatrix = Eigen::Matrix<float, kRelativeDof, kRelativeDof>;
 using RelativeVector = Eigen::Matrix<float, kRelativeDof, 1>;
 
 struct NormalEquations {
-  Eigen::MatrixXd H;     ///< Without the inverse depths, before the Schur complement.
+  Eigen::MatrixXd H;  ///< Without the inverse depths, before the Schur complement.
   Eigen::VectorXd b;
   Eigen::MatrixXd H_sc;  ///< What the Schur complement over the inverse depths takes away.
   Eigen::VectorXd b_sc;
@@ -60,7 +60,8 @@ class NormalEquationsBuilder {
   explicit NormalEquationsBuilder(ThreadPool& pool) : pool_(pool) {}
 
   /// `damping` multiplies the diagonal of the inverse depths by 1 + damping.
-  NormalEquations build(const Window& window, const FramePairs& pairs, const std::vector<PointChunk>& chunks, double damping);
+  NormalEquations build(const Window& window, const FramePairs& pairs, const std::vector<PointChunk>& chunks,
+                        double damping);
 
   /// Sets `idepth_step` of all points for the step of the other variables.
   void back_substitute(const std::vector<PointChunk>& chunks, const Eigen::VectorXd& step) const;
@@ -70,8 +71,8 @@ class NormalEquationsBuilder {
   struct ChunkSystem {
     /// Row i: coupling of point i with all other variables times `scale[i]`.
     Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> coupling;
-    Eigen::VectorXf gradient;  ///< b of each point, scaled alike.
-    Eigen::VectorXf scale;     ///< 1 / sqrt(damped Hessian) of each point; 0: not determined.
+    Eigen::VectorXf gradient;       ///< b of each point, scaled alike.
+    Eigen::VectorXf scale;          ///< 1 / sqrt(damped Hessian) of each point; 0: not determined.
     std::vector<RelativeMatrix> H;  ///< By target, over the relative variables; upper triangle.
     std::vector<RelativeVector> b;
     Eigen::MatrixXf H_sc;  ///< Lower triangle.

@@ -31,10 +31,10 @@ FramePair make_frame_pair(const Keyframe& host, const Keyframe& target, const Ei
   const double target_exposure = target.frame->exposure_ms;
   FramePair pair;
   const SE3d T_target_host = target.state.T_c_w() * host.state.T_c_w().inverse();
-  pair.warp = make_warp(
-      T_target_host, camera,
-      brightness_transfer(host_exposure, host.state.brightness(), target_exposure, target.state.brightness()),
-      target.image());
+  pair.warp =
+      make_warp(T_target_host, camera,
+                brightness_transfer(host_exposure, host.state.brightness(), target_exposure, target.state.brightness()),
+                target.image());
   const SE3d T_lin = target.state.T_c_w_lin * host.state.T_c_w_lin.inverse();
   const BrightnessTransfer lin =
       brightness_transfer(host_exposure, host.state.brightness_lin, target_exposure, target.state.brightness_lin);

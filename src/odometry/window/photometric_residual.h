@@ -19,10 +19,10 @@ struct ProjectionJacobian {
 
 /// All that the residuals from one host to one target share.
 struct FramePair {
-  PatternWarp warp;              ///< At the current estimate.
-  Eigen::Matrix3f R_lin;         ///< Of T_target_host at the point of linearization.
+  PatternWarp warp;       ///< At the current estimate.
+  Eigen::Matrix3f R_lin;  ///< Of T_target_host at the point of linearization.
   Eigen::Vector3f t_lin;
-  Eigen::Vector4f camera_lin;    ///< fx, fy, cx, cy.
+  Eigen::Vector4f camera_lin;  ///< fx, fy, cx, cy.
   /// Maps the host's tangent (pose, a, b) to the relative one; the target's maps by the identity.
   Eigen::Matrix<double, kFrameDof, kFrameDof> host_adjoint;
   Eigen::Matrix<float, kFrameDof, kFrameDof> host_adjoint_f;

@@ -142,7 +142,9 @@ Texel sample_bilinear(const PatternWarp& w, float x, float y) {
   const int iy = static_cast<int>(y);
   const float fx = x - static_cast<float>(ix);
   const float fy = y - static_cast<float>(iy);
-  const auto at = [&](int px, int py) -> const Texel& { return w.texels[static_cast<std::ptrdiff_t>(py) * w.width + px]; };
+  const auto at = [&](int px, int py) -> const Texel& {
+    return w.texels[static_cast<std::ptrdiff_t>(py) * w.width + px];
+  };
   const auto mix = [&](float Texel::*m) {
     return (1 - fy) * ((1 - fx) * at(ix, iy).*m + fx * at(ix + 1, iy).*m) +
            fy * ((1 - fx) * at(ix, iy + 1).*m + fx * at(ix + 1, iy + 1).*m);
@@ -158,9 +160,11 @@ bool evaluate_reference(const PatternJob& job, PatternSums& s) {
     const float u = job.u + static_cast<float>(kPattern[i].dx);
     const float v = job.v + static_cast<float>(kPattern[i].dy);
     float p[3];
-    for (int r = 0; r < 3; ++r) p[r] = w.KRKi[3 * r] * u + w.KRKi[3 * r + 1] * v + w.KRKi[3 * r + 2] + w.Kt[r] * job.idepth;
+    for (int r = 0; r < 3; ++r)
+      p[r] = w.KRKi[3 * r] * u + w.KRKi[3 * r + 1] * v + w.KRKi[3 * r + 2] + w.Kt[r] * job.idepth;
     const float x = p[0] / p[2], y = p[1] / p[2];
-    const bool inside = p[2] > 0 && x > 1 && y > 1 && x < static_cast<float>(w.width) - 2 && y < static_cast<float>(w.height) - 2;
+    const bool inside =
+        p[2] > 0 && x > 1 && y > 1 && x < static_cast<float>(w.width) - 2 && y < static_cast<float>(w.height) - 2;
     if (!inside) return false;
     const Texel t = sample_bilinear(w, x, y);
     if (!(t.valid > 0.999f)) continue;

@@ -14,12 +14,12 @@ struct PatternWarp {
   const Texel* texels = nullptr;  ///< Target image, row-major without padding.
   int width = 0;
   int height = 0;
-  float KRKi[9] = {};             ///< K_t R_t_h K_h^-1, row-major.
-  float Kt[3] = {};               ///< K_t t_t_h.
-  float factor = 1;               ///< Brightness: I_target = factor * I_host + offset, current estimate.
+  float KRKi[9] = {};  ///< K_t R_t_h K_h^-1, row-major.
+  float Kt[3] = {};    ///< K_t t_t_h.
+  float factor = 1;    ///< Brightness: I_target = factor * I_host + offset, current estimate.
   float offset = 0;
-  float factor_lin = 1;           ///< The same factor at the linearization point.
-  float host_b_lin = 0;           ///< b of the host at the linearization point.
+  float factor_lin = 1;  ///< The same factor at the linearization point.
+  float host_b_lin = 0;  ///< b of the host at the linearization point.
 };
 
 struct PatternJob {
@@ -29,8 +29,8 @@ struct PatternJob {
   float idepth = 0;
 };
 
-/// Sums over the pattern of weight * x * y for x, y of: g = image gradient in the target, a and b = derivative of the residual
-/// by the relative log brightness factor and offset of the target, r = residual [grey levels].
+/// Sums over the pattern of weight * x * y for x, y of: g = image gradient in the target, a and b = derivative of the
+/// residual by the relative log brightness factor and offset of the target, r = residual [grey levels].
 struct PatternSums {
   float gxx = 0, gxy = 0, gyy = 0;
   float gxa = 0, gya = 0, gxb = 0, gyb = 0;

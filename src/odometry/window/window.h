@@ -29,9 +29,7 @@ struct Window {
   int dim() const { return kCameraDof + kFrameDof * size(); }
   static int offset(int keyframe) { return kCameraDof + kFrameDof * keyframe; }
 
-  PinholeIntrinsics intrinsics() const {
-    return {width, height, camera[0], camera[1], camera[2], camera[3]};
-  }
+  PinholeIntrinsics intrinsics() const { return {width, height, camera[0], camera[1], camera[2], camera[3]}; }
 
   /// Difference of the state from its point of linearization, all variables in order.
   Eigen::VectorXd delta() const {

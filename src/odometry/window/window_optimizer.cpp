@@ -166,7 +166,8 @@ void WindowOptimizer::settle(Window& window, const std::vector<PointChunk>& chun
         ++report.residuals;
         inlier_energy += residual.sums[window.front].energy;
       }
-      std::erase_if(point->residuals, [&](const PointResidual& r) { return r.states[window.front] != ResidualState::kInlier; });
+      std::erase_if(point->residuals,
+                    [&](const PointResidual& r) { return r.states[window.front] != ResidualState::kInlier; });
     }
   }
   if (report.residuals > 0) report.rmse = std::sqrt(inlier_energy / (report.residuals * kPatternSize));

@@ -12,15 +12,16 @@ namespace ldso {
 
 struct OptimizationReport {
   int iterations = 0;
-  double energy = 0;      ///< Photometric energy after.
-  int residuals = 0;      ///< Inlier residuals after.
-  double rmse = 0;        ///< Root of the mean robust energy of a pixel [grey levels].
-  bool finite = true;     ///< False if a step was not finite: the state was kept.
+  double energy = 0;   ///< Photometric energy after.
+  int residuals = 0;   ///< Inlier residuals after.
+  double rmse = 0;     ///< Root of the mean robust energy of a pixel [grey levels].
+  bool finite = true;  ///< False if a step was not finite: the state was kept.
 };
 
 class WindowOptimizer {
  public:
-  WindowOptimizer(const WindowSettings& settings, ThreadPool& pool) : settings_(settings), pool_(pool), builder_(pool) {}
+  WindowOptimizer(const WindowSettings& settings, ThreadPool& pool)
+      : settings_(settings), pool_(pool), builder_(pool) {}
 
   /// Moves the state to a minimum, then takes out residuals that are no inliers there and fixes the linearization
   /// that marginalization uses.
