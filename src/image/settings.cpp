@@ -59,6 +59,8 @@ const std::map<std::string, SettingRange, std::less<>>& ranges() {
       {"initializer.points", {50, 100000}},
       {"initializer.min_parallax", {0, 1000}},
       {"initializer.min_parallax_angle", {0, 90}},
+      {"initializer.good_parallax_angle", {0, 90}},
+      {"initializer.plenty_tracked", {0, 1}},
       {"initializer.patience", {1, 1000000}},
       {"initializer.max_cost_ratio", {0, 1000}},
       {"initializer.max_direction_stddev", {0, 180}},

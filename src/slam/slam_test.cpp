@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ldso/error.h"
@@ -18,8 +17,14 @@ namespace {
 
 constexpr int kFrames = 30;
 
+/// Of a temporary image too, which lives until the end of the call it is passed to.
 template <class T>
-const Image<T> converted(const Image<std::uint8_t>& image, T factor) {
+ImageView<const T> const_view(const Image<T>& image) {
+  return image.view();
+}
+
+template <class T>
+Image<T> converted(const Image<std::uint8_t>& image, T factor) {
   Image<T> result(image.width(), image.height());
   for (std::size_t i = 0; i < image.size(); ++i) result.data()[i] = static_cast<T>(factor * image.data()[i]);
   return result;

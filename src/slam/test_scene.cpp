@@ -42,7 +42,7 @@ Calibration scene_calibration() {
   return calibration;
 }
 
-const Image<std::uint8_t> draw_scene(int frame) {
+Image<std::uint8_t> draw_scene(int frame) {
   Image<std::uint8_t> image(kSceneWidth, kSceneHeight);
   for (int v = 0; v < kSceneHeight; ++v) {
     const int board = 3 * v / kSceneHeight;

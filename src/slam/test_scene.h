@@ -15,6 +15,6 @@ inline constexpr int kSceneHeight = 240;
 Calibration scene_calibration();
 
 /// What the camera sees after `frame` steps of 2 cm along its x axis.
-const Image<std::uint8_t> draw_scene(int frame);
+Image<std::uint8_t> draw_scene(int frame);
 
 }  // namespace ldso
