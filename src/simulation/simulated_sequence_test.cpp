@@ -13,7 +13,7 @@ namespace {
 SequenceRecipe small(const std::string& world) {
   SequenceRecipe recipe;
   recipe.world = world;
-  recipe.texel_scale = world == "street" ? 3 : 1.5;
+  recipe.texel_scale = world == "street" ? 4 : 2;
   recipe.scale = world == "street" ? 0.8 : 1;
   recipe.width = world == "street" ? 409 : 320;
   recipe.height = world == "street" ? 124 : 240;

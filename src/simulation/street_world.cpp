@@ -130,7 +130,7 @@ class Town {
       const Plot plot{beside(p, side * (setback + 0.5 * depth)), {0.5 * width, 0.5 * depth}, p.heading};
       if (!clear_of_roads(plot, kPavementEdge - 0.1) || !free_of_houses(plot, 0.02)) continue;
       plots_.push_back(plot);
-      build_house(plot, side, 1 + random_.index(4), 0.02);
+      build_house(plot, side, 1 + random_.index(4), 0.016);
       return width;
     }
     return std::nullopt;
@@ -272,11 +272,11 @@ class Town {
     const double yaw = plot.heading - 0.5 * std::numbers::pi, lower = random_.uniform(0.62, 0.8),
                  upper = random_.uniform(0.45, 0.65);
     const auto flank = [&](std::uint64_t k) {
-      return Skin{builder_.paint(length, lower, 0.02, [=](Canvas& c) { paint_car_side(c, hash_of(seed, k / 2)); }), 0,
+      return Skin{builder_.paint(length, lower, 0.012, [=](Canvas& c) { paint_car_side(c, hash_of(seed, k / 2)); }), 0,
                   0.03f};
     };
     const auto end = [&](std::uint64_t k) {
-      return Skin{builder_.paint(width, lower, 0.02, [=](Canvas& c) { paint_car_end(c, hash_of(seed, k / 2)); }), 0,
+      return Skin{builder_.paint(width, lower, 0.012, [=](Canvas& c) { paint_car_end(c, hash_of(seed, k / 2)); }), 0,
                   0.03f};
     };
     const Skin top{builder_.paint(length, width, 0.05, [=](Canvas& c) { paint_metal(c, 0.4f, seed); }), 0, 0.03f};
@@ -284,7 +284,7 @@ class Town {
     builder_.box({ground + Eigen::Vector3d(0, -0.22 - 0.5 * lower, 0), {0.5 * length, 0.5 * lower, 0.5 * width}, yaw},
                  {flank(0), flank(1), end(0), end(1), top, Skin{}});
     const auto glass = [&](double w) {
-      return Skin{builder_.paint(w, upper, 0.02,
+      return Skin{builder_.paint(w, upper, 0.012,
                                  [=](Canvas& c) {
                                    paint_metal(c, 0.35f, seed);
                                    for (double x = 0.1; x < w - 0.3; x += 1.05)
