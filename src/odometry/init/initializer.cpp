@@ -117,7 +117,6 @@ void Initializer::set_reference(std::shared_ptr<const PreparedFrame> frame) {
   moving_ = false;
   brightness_ = {};
   frames_ = 0;
-  interim_.clear();
 }
 
 Initializer::Status Initializer::wait(std::string reason) {
@@ -157,7 +156,7 @@ Initializer::Status Initializer::judge(const std::shared_ptr<const PreparedFrame
   tracked_ = share;
   remember(matches);
   newest_ = frame;
-  const Motion motion = fit(*frame, matches);
+  const Motion motion = fit(matches);
   std::string complaint = objection(motion);
   if (complaint.empty()) complaint = refine(*frame);
   if (complaint.empty()) {
@@ -211,7 +210,9 @@ std::vector<PatchMatch> Initializer::track(const PreparedFrame& frame) {
   brightness_ = measured;
   if (as_expected) return matches;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (matches[i].found) predictions[i].starts = {matches[i].position};
+    if (!matches[i].found) continue;
+    predictions[i].starts = {matches[i].position};
+    predictions[i].coarsest = 1;
   }
   matches = tracker_->track(frame, predictions, brightness_, pool_);
   brightness_ = brightness_of(matches);
@@ -244,7 +245,7 @@ TwoViewMatch Initializer::two_view_match(std::size_t index, const PatchMatch& ma
   return {tracks_[index].ray, match.position, whitening};
 }
 
-Initializer::Motion Initializer::fit(const PreparedFrame& frame, const std::vector<PatchMatch>& matches) {
+Initializer::Motion Initializer::fit(const std::vector<PatchMatch>& matches) {
   Motion result;
   std::vector<TwoViewMatch> pairs;
   std::vector<double> flow;
@@ -260,9 +261,6 @@ Initializer::Motion Initializer::fit(const PreparedFrame& frame, const std::vect
   T_newest_first_ = result.rotation.T_second_first;
   moving_ = false;
   if (result.median_flow >= kStill) fit_motion_with_translation(pairs, result);
-  // Standing still may last for hours.
-  if (interim_.size() >= static_cast<std::size_t>(settings_.max_frames)) interim_.erase(interim_.begin());
-  interim_.push_back({frame.id, frame.timestamp, result.indices, std::move(pairs)});
   return result;
 }
 
@@ -387,28 +385,7 @@ std::string Initializer::publish(const PreparedFrame& frame, const JointFit& fit
                               static_cast<float>(fit.points[i].idepth_variance / (mean * mean)), is_good[i],
                               tracks_[i].is_corner});
   }
-  result_.interim = interim_poses();
   return {};
-}
-
-std::vector<InterimPose> Initializer::interim_poses() const {
-  std::vector<InterimPose> poses;
-  SE3d start;
-  for (std::size_t k = 0; k + 1 < interim_.size(); ++k) {
-    const InterimFrame& frame = interim_[k];
-    std::vector<TwoViewMatch> matches;
-    std::vector<double> idepth;
-    for (std::size_t i = 0; i < frame.indices.size(); ++i) {
-      const InitialPoint& point = result_.points[static_cast<std::size_t>(frame.indices[i])];
-      if (!point.is_good) continue;
-      matches.push_back(frame.matches[i]);
-      idepth.push_back(point.idepth);
-    }
-    if (matches.size() < kMinMatches) continue;
-    start = fit_pose(matches, idepth, camera_, start);
-    poses.push_back({frame.id, frame.timestamp, start});
-  }
-  return poses;
 }
 
 }  // namespace ldso

@@ -31,13 +31,6 @@ struct InitialPoint {
   bool is_corner = false;     ///< As selected.
 };
 
-/// A frame between the first and the current one.
-struct InterimPose {
-  std::int64_t frame_id = -1;
-  double timestamp = 0;  ///< [s]
-  SE3d T_frame_first;    ///< Same scale as T_current_first.
-};
-
 struct Initialization {
   std::int64_t first_frame_id = -1;
   std::int64_t current_frame_id = -1;
@@ -45,9 +38,8 @@ struct Initialization {
   /// I_current = (exposure_current / exposure_first) e^a I_first + b.
   double a = 0, b = 0;
   std::vector<InitialPoint> points;
-  std::vector<InterimPose> interim;  ///< In the order in which the frames came.
-  double median_parallax = 0;        ///< Of the good points [px].
-  double direction_stddev = 0;       ///< Of the direction of translation [rad].
+  double median_parallax = 0;   ///< Of the good points [px].
+  double direction_stddev = 0;  ///< Of the direction of translation [rad].
 };
 
 class Initializer {
@@ -80,14 +72,6 @@ class Initializer {
  private:
   struct Track;
   struct Motion;
-  /// What was seen in a frame that did not suffice for a start.
-  struct InterimFrame {
-    std::int64_t id;
-    double timestamp;
-    std::vector<int> indices;  ///< Of the matched points.
-    std::vector<TwoViewMatch> matches;
-  };
-
   void set_reference(std::shared_ptr<const PreparedFrame> frame);
   Status wait(std::string reason);
   Status restart(std::shared_ptr<const PreparedFrame> frame, const std::string& reason);
@@ -98,7 +82,7 @@ class Initializer {
   static BrightnessTransfer brightness_of(const std::vector<PatchMatch>& matches);
   SE3d predicted_pose(const SO3d& step) const;
   void remember(const std::vector<PatchMatch>& matches);
-  Motion fit(const PreparedFrame& frame, const std::vector<PatchMatch>& matches);
+  Motion fit(const std::vector<PatchMatch>& matches);
   void fit_motion_with_translation(const std::vector<TwoViewMatch>& pairs, Motion& result);
   TwoViewMatch two_view_match(std::size_t index, const PatchMatch& match) const;
   double wanted_parallax() const;
@@ -107,7 +91,6 @@ class Initializer {
   std::string refine(const PreparedFrame& frame);
   JointState joint_start();
   std::string publish(const PreparedFrame& frame, const JointFit& fit);
-  std::vector<InterimPose> interim_poses() const;
 
   PinholeIntrinsics camera_;
   InitializerSettings settings_;
@@ -125,11 +108,10 @@ class Initializer {
   /// pure rotations while no translation is known.
   SE3d T_newest_first_;
   SE3d T_previous_first_;
-  bool moving_ = false;                ///< Both have translations.
-  BrightnessTransfer brightness_;      ///< From the first to the newest frame.
-  double tracked_ = 1;                 ///< Share of the points found in the newest frame.
-  int frames_ = 0;                     ///< Since the first.
-  std::vector<InterimFrame> interim_;  ///< Since the first, the newest included.
+  bool moving_ = false;            ///< Both have translations.
+  BrightnessTransfer brightness_;  ///< From the first to the newest frame.
+  double tracked_ = 1;             ///< Share of the points found in the newest frame.
+  int frames_ = 0;                 ///< Since the first.
 
   Initialization result_;
   std::string reason_;

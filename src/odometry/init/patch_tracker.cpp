@@ -202,7 +202,7 @@ PatchMatch PatchTracker::track_patch(const PreparedFrame& current, std::size_t i
   if (prediction.starts.empty() || !templates_[index * levels_].usable) return match;
   const Eigen::Matrix2f warp = prediction.warp.cast<float>();
   match.position = best_start(current, index, prediction, brightness);
-  for (int level = levels_ - 1; level >= 0; --level) {
+  for (int level = std::min(prediction.coarsest, levels_ - 1); level >= 0; --level) {
     const Template& patch = templates_[index * levels_ + level];
     if (!patch.usable) continue;
     Eigen::Vector2f centre = to_level(match.position, level).cast<float>();

@@ -20,6 +20,7 @@ namespace ldso {
 struct PatchPrediction {
   std::vector<Eigen::Vector2d> starts;
   Eigen::Matrix2d warp = Eigen::Matrix2d::Identity();
+  int coarsest = 100;  ///< Pyramid level to begin with: lower for a start that is known better.
 };
 
 struct PatchMatch {

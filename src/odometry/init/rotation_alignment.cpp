@@ -30,12 +30,33 @@ struct State {
   double offset = 0;
 };
 
+/// Of one row of pixels: short enough for single precision.
+struct RowSums {
+  float H[15] = {};  ///< Upper triangle, row by row.
+  float b[5] = {};
+  float energy = 0;
+  int used = 0;
+};
+
 /// Normal equations of rotation, gain and offset over all pixels of a level.
 struct NormalEquations {
   Matrix5 H = Matrix5::Zero();
   Vector5 b = Vector5::Zero();
   double energy = 0;
   int used = 0;
+
+  void add(const RowSums& row) {
+    int entry = 0;
+    for (int i = 0; i < 5; ++i) {
+      b[i] += row.b[i];
+      for (int j = i; j < 5; ++j, ++entry) {
+        H(i, j) += row.H[entry];
+        if (j != i) H(j, i) = H(i, j);
+      }
+    }
+    energy += row.energy;
+    used += row.used;
+  }
 
   double mean_energy(double pixels) const {
     return used < kMinOverlap * pixels ? std::numeric_limits<double>::infinity() : energy / used;
@@ -47,13 +68,16 @@ class Level {
   Level(const Image<Texel>& from, const Image<Texel>& to, const PinholeIntrinsics& camera)
       : from_(from), to_(to), camera_(camera) {}
 
-  NormalEquations linearize(const State& state) const {
+  /// Without derivatives if they are not wanted.
+  NormalEquations linearize(const State& state, bool derivatives = true) const {
     NormalEquations sums;
     const Eigen::Matrix3f R = state.rotation.matrix().cast<float>();
     for (int y = 1; y + 1 < from_.height(); ++y) {
+      RowSums row;
       for (int x = 1; x + 1 < from_.width(); ++x) {
-        if (from_(x, y).valid != 0) add_pixel(x, y, R, state, sums);
+        if (from_(x, y).valid != 0) add_pixel(x, y, R, state, derivatives, row);
       }
+      sums.add(row);
     }
     return sums;
   }
@@ -62,7 +86,7 @@ class Level {
   double pixels() const { return static_cast<double>(from_.width()) * from_.height(); }
 
  private:
-  void add_pixel(int x, int y, const Eigen::Matrix3f& R, const State& state, NormalEquations& sums) const {
+  void add_pixel(int x, int y, const Eigen::Matrix3f& R, const State& state, bool derivatives, RowSums& sums) const {
     const float fx = static_cast<float>(camera_.fx);
     const float fy = static_cast<float>(camera_.fy);
     const float cx = static_cast<float>(camera_.cx);
@@ -82,13 +106,18 @@ class Level {
     const float weight = std::abs(r) <= kHuber ? 1.0f : kHuber / std::abs(r);
     const float gx = s.dx * fx;
     const float gy = s.dy * fy;
-    Vector5 J;
-    // d(u, v) / d omega for q -> q + omega x q at the normalized point (X, Y, 1).
-    J << -gx * X * Y - gy * (1 + Y * Y), gx * (1 + X * X) + gy * X * Y, -gx * Y + gy * X, -reference, -1;
-    sums.H.noalias() += static_cast<double>(weight) * J * J.transpose();
-    sums.b.noalias() += static_cast<double>(weight * r) * J;
     sums.energy += std::abs(r) <= kHuber ? r * r : kHuber * (2 * std::abs(r) - kHuber);
     ++sums.used;
+    if (!derivatives) return;
+    // d(u, v) / d omega for q -> q + omega x q at the normalized point (X, Y, 1).
+    const float J[5] = {-gx * X * Y - gy * (1 + Y * Y), gx * (1 + X * X) + gy * X * Y, -gx * Y + gy * X, -reference,
+                        -1};
+    int entry = 0;
+    for (int i = 0; i < 5; ++i) {
+      const float wJ = weight * J[i];
+      sums.b[i] += wJ * r;
+      for (int j = i; j < 5; ++j) sums.H[entry++] += wJ * J[j];
+    }
   }
 
   const Image<Texel>& from_;
@@ -137,7 +166,7 @@ State search(const Level& level, const SO3d& centre) {
   for (int y = -kSearchStepsY; y <= kSearchStepsY; ++y) {
     for (int x = -kSearchStepsX; x <= kSearchStepsX; ++x) {
       const State state{SO3d::exp({y * step, x * step, 0}) * centre, 1, 0};
-      trials.push_back({state, level.linearize(state).mean_energy(level.pixels())});
+      trials.push_back({state, level.linearize(state, false).mean_energy(level.pixels())});
     }
   }
   std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.energy < b.energy; });

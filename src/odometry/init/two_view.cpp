@@ -265,36 +265,6 @@ std::vector<Candidate> search(const std::vector<TwoViewMatch>& matches, const Pi
   return distinct(std::move(candidates));
 }
 
-struct PoseEquations {
-  Matrix6 H = Matrix6::Zero();
-  Vector6 b = Vector6::Zero();
-  double cost = 0;
-};
-
-PoseEquations pose_equations(const std::vector<TwoViewMatch>& matches, const std::vector<double>& idepth,
-                             const PinholeIntrinsics& camera, const SE3d& T) {
-  PoseEquations sums;
-  const double k2 = kCauchy * kCauchy;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const Eigen::Vector3d q = T.rotation() * matches[i].ray + idepth[i] * T.translation();
-    const double z = std::max(q.z(), 0.5 * kMinDepthRatio);
-    const Eigen::Vector2d px(camera.fx * q.x() / z + camera.cx, camera.fy * q.y() / z + camera.cy);
-    const Eigen::Vector2d residual = matches[i].whitening * (px - matches[i].target);
-    Matrix23 J_point;
-    J_point << camera.fx / z, 0, -camera.fx * q.x() / (z * z), 0, camera.fy / z, -camera.fy * q.y() / (z * z);
-    J_point = matches[i].whitening * J_point;
-    Eigen::Matrix<double, 2, 6> J;
-    J.leftCols<3>() = idepth[i] * J_point;
-    J.rightCols<3>() = -J_point * SO3d::hat(q);
-    const double e2 = residual.squaredNorm();
-    const double weight = 1 / (1 + e2 / k2);
-    sums.H.noalias() += weight * J.transpose() * J;
-    sums.b.noalias() += weight * J.transpose() * residual;
-    sums.cost += k2 * std::log1p(e2 / k2);
-  }
-  return sums;
-}
-
 double direction_stddev(const Problem& problem, const SE3d& T) {
   const Eigen::MatrixXd basis = free_motions(T, Depths::kPositive);
   Eigen::Matrix<double, 5, 5> H = basis.transpose() * problem.linearize(T).H * basis;
@@ -337,33 +307,6 @@ TwoViewFit fit_motion(const std::vector<TwoViewMatch>& matches, const PinholeInt
   fit.direction_stddev = direction_stddev(problem, fit.T_second_first);
   fill_points(matches, problem, fit);
   return fit;
-}
-
-SE3d fit_pose(const std::vector<TwoViewMatch>& matches, const std::vector<double>& idepth,
-              const PinholeIntrinsics& camera, const SE3d& start) {
-  SE3d T = start;
-  PoseEquations now = pose_equations(matches, idepth, camera, T);
-  double lambda = 1e-3;
-  for (int i = 0; i < kFinalIterations; ++i) {
-    Matrix6 H = now.H;
-    H.diagonal() *= 1 + lambda;
-    H.diagonal().array() += 1e-9;
-    const Vector6 step = -H.ldlt().solve(now.b);
-    if (!step.allFinite()) break;
-    const SE3d trial = SE3d::exp(step) * T;
-    const PoseEquations next = pose_equations(matches, idepth, camera, trial);
-    if (!(next.cost < now.cost)) {
-      lambda *= 8;
-      if (lambda > 1e4) break;
-      continue;
-    }
-    const bool converged = now.cost - next.cost < 1e-6 * now.cost;
-    T = trial;
-    now = next;
-    lambda *= 0.2;
-    if (converged) break;
-  }
-  return T;
 }
 
 }  // namespace ldso

@@ -39,9 +39,4 @@ TwoViewFit fit_rotation(const std::vector<TwoViewMatch>& matches, const PinholeI
 TwoViewFit fit_motion(const std::vector<TwoViewMatch>& matches, const PinholeIntrinsics& camera, const SO3d& rotation,
                       const std::optional<SE3d>& guess, ThreadPool& pool);
 
-/// The pose of the second camera if the inverse depths of the matches are known (same units as the
-/// translation); starts at `start`. Needs at least 6 matches.
-SE3d fit_pose(const std::vector<TwoViewMatch>& matches, const std::vector<double>& idepth,
-              const PinholeIntrinsics& camera, const SE3d& start);
-
 }  // namespace ldso

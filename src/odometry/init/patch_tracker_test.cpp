@@ -1,0 +1,76 @@
+#include "odometry/init/patch_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "odometry/init/rotation_alignment.h"
+#include "odometry/init/test_scene.h"
+
+namespace ldso {
+namespace {
+
+const PinholeIntrinsics kCamera{256, 192, 210, 205, 126.5, 97.5};
+
+class PatchTrackerTest : public ::testing::Test {
+ protected:
+  std::vector<Eigen::Vector2d> grid() const {
+    std::vector<Eigen::Vector2d> pixels;
+    for (int y = 30; y < 165; y += 15) {
+      for (int x = 30; x < 230; x += 15) pixels.emplace_back(x, y);
+    }
+    return pixels;
+  }
+
+  Eigen::Vector2d truth(const SE3d& T_world_camera, const Eigen::Vector2d& p) const {
+    const double depth = scene_.look(SE3d(), p.x(), p.y()).depth;
+    const Eigen::Vector3d q =
+        T_world_camera.inverse() *
+        Eigen::Vector3d((p.x() - kCamera.cx) / kCamera.fx * depth, (p.y() - kCamera.cy) / kCamera.fy * depth, depth);
+    return {kCamera.fx * q.x() / q.z() + kCamera.cx, kCamera.fy * q.y() / q.z() + kCamera.cy};
+  }
+
+  ThreadPool pool_{2};
+  test::Scene scene_{kCamera};
+};
+
+TEST_F(PatchTrackerTest, FindsPatchesThatMovedFar) {
+  const SE3d T(SO3d::exp({0.01, -0.05, 0.01}), Eigen::Vector3d(0.05, 0.02, 0.02));
+  const auto first = scene_.frame(0, SE3d(), {1, 0, 1});
+  const auto second = scene_.frame(1, T, {0.9, 5, 1});
+  const std::vector<Eigen::Vector2d> pixels = grid();
+  const PatchTracker tracker(*first, pixels, pool_);
+  std::vector<PatchPrediction> predictions;
+  for (const auto& p : pixels) predictions.emplace_back().starts = {p};
+  const std::vector<PatchMatch> matches = tracker.track(*second, predictions, {0.9, 5}, pool_);
+  int found = 0;
+  int right = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (!matches[i].found) continue;
+    ++found;
+    right += (matches[i].position - truth(T, pixels[i])).norm() < 0.5;
+    EXPECT_GT(matches[i].covariance.determinant(), 0);
+  }
+  EXPECT_GT(found, static_cast<int>(0.7 * static_cast<double>(pixels.size())));
+  EXPECT_GT(right, static_cast<int>(0.8 * found));
+}
+
+TEST_F(PatchTrackerTest, PatchesOutsideAreNotFound) {
+  const auto frame = scene_.frame(0, SE3d());
+  const std::vector<Eigen::Vector2d> pixels = {{1, 1}, {130, 100}, {254, 190}};
+  const PatchTracker tracker(*frame, pixels, pool_);
+  std::vector<PatchPrediction> predictions(3);
+  predictions[0].starts = {pixels[0]};
+  predictions[1].starts = {{-50, 20}};
+  for (const PatchMatch& match : tracker.track(*frame, predictions, {}, pool_)) EXPECT_FALSE(match.found);
+}
+
+TEST_F(PatchTrackerTest, RotationOfWholeImagesIsFoundFarAway) {
+  for (const double yaw : {0.0, 0.02, -0.1, 0.2}) {
+    const SO3d R = SO3d::exp({0.02, yaw, 0.03});
+    const SO3d R_second_first =
+        align_rotation(*scene_.frame(0, SE3d()), *scene_.frame(1, SE3d(R, Eigen::Vector3d::Zero())), kCamera).R_to_from;
+    EXPECT_LT((R_second_first * R).log().norm(), 0.002) << yaw;
+  }
+}
+
+}  // namespace
+}  // namespace ldso
