@@ -1,0 +1,18 @@
+#pragma once
+
+// A described corner of a keyframe with what the map knows of it: its depth, and where the vocabulary files it.
+
+#include <cstdint>
+
+#include "place/feature.h"
+
+namespace ldso {
+
+struct MapFeature {
+  Feature feature;
+  float idepth = 0;         ///< Inverse depth in its own keyframe [1 / map unit]; 0: unknown.
+  float idepth_stddev = 0;  ///< Standard deviation of the inverse depth; read only where the depth is known.
+  std::uint32_t node = 0;   ///< Vocabulary node of the descriptor at the level of guided matching.
+};
+
+}  // namespace ldso
