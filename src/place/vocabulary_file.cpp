@@ -1,0 +1,134 @@
+#include "place/vocabulary_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+
+#include "ldso/error.h"
+#include "place/bytes.h"
+#include "place/dbow_vocabulary_file.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic{"ldsovoc\0", 8};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kChecksumSize = 8;
+
+std::uint64_t fnv1a(std::span<const std::uint8_t> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
+  return hash;
+}
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
+  return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin(), [](char a, std::uint8_t b) {
+           return static_cast<std::uint8_t>(a) == b;
+         });
+}
+
+/// The parents that the numbers of children tell, level after level.
+void set_parents(std::span<const std::uint8_t> child_counts, ByteReader& reader, std::vector<VocabularyNode>& nodes) {
+  std::size_t next = 1;
+  for (std::size_t parent = 0; parent < nodes.size(); ++parent) {
+    if (child_counts[parent] > nodes.size() - next) reader.fail("its nodes do not fit together");
+    for (int i = 0; i < child_counts[parent]; ++i) nodes[next++].parent = static_cast<std::uint32_t>(parent);
+  }
+  if (next != nodes.size()) reader.fail("its nodes do not fit together");
+}
+
+Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& name) {
+  ByteReader reader(bytes, name);
+  reader.take(kMagic.size());
+  const auto version = reader.number<std::uint32_t>();
+  if (version != kVersion)
+    throw Error(name, "is a vocabulary of format version " + std::to_string(version), "update ldso to read it");
+  const auto node_count = reader.number<std::uint32_t>();
+  const auto word_count = reader.number<std::uint32_t>();
+  const auto origin_size = reader.number<std::uint32_t>();
+  const std::uint64_t expected =
+      std::uint64_t{origin_size} + std::uint64_t{node_count} * 33 - 32 + std::uint64_t{word_count} * 4 + kChecksumSize;
+  if (node_count == 0 || reader.left() < expected) reader.fail("the file is truncated");
+  if (reader.left() > expected) reader.fail("there is something behind its end");
+  ByteReader checksum(bytes.last(kChecksumSize), name);
+  if (checksum.number<std::uint64_t>() != fnv1a(bytes.first(bytes.size() - kChecksumSize)))
+    reader.fail("the file is damaged (its checksum is wrong)");
+
+  const auto origin = reader.take(origin_size);
+  const auto child_counts = reader.take(node_count);
+  std::vector<VocabularyNode> nodes(node_count);
+  set_parents(child_counts, reader, nodes);
+  for (std::size_t i = 1; i < nodes.size(); ++i) nodes[i].descriptor = reader.descriptor();
+  if (std::count(child_counts.begin(), child_counts.end(), 0) != static_cast<std::ptrdiff_t>(word_count))
+    reader.fail("its words do not fit its nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (child_counts[i] == 0) nodes[i].weight = reader.float32();
+  }
+  return Vocabulary(nodes, std::string(origin.begin(), origin.end()));
+}
+
+}  // namespace
+
+Vocabulary parse_vocabulary(std::span<const std::uint8_t> bytes, const std::string& name) {
+  if (bytes.empty()) throw Error(name, "the file is empty", "copy it again or train a vocabulary (ldso vocab train)");
+  try {
+    if (starts_with(bytes, kMagic)) return parse_own(bytes, name);
+    if (is_dbow3_binary(bytes)) return parse_dbow3_binary(bytes, name);
+    if (is_dbow2_text(bytes)) return parse_dbow2_text(bytes, name);
+  } catch (const Error& error) {
+    // Errors of the tree itself do not know the file.
+    if (std::string_view(error.what()).starts_with(name)) throw;
+    throw Error(name + ": " + error.what());
+  }
+  throw Error(name, "is no vocabulary",
+              "give one made by `ldso vocab train`, an uncompressed binary file of DBoW3 or a text file of DBoW2");
+}
+
+Vocabulary read_vocabulary(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw Error(path.string(), "there is no such file", "check the path");
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw Error(path.string(), "cannot be read", "check its permissions");
+  return parse_vocabulary(bytes, path.string());
+}
+
+std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
+  if (vocabulary.branching() > 255)
+    throw Error("vocabulary", "a node has more than 255 children", "train it with a smaller branching");
+  std::vector<std::uint8_t> bytes(kMagic.begin(), kMagic.end());
+  append_number(kVersion, bytes);
+  append_number(static_cast<std::uint32_t>(vocabulary.node_count()), bytes);
+  append_number(static_cast<std::uint32_t>(vocabulary.word_count()), bytes);
+  append_number(static_cast<std::uint32_t>(vocabulary.origin().size()), bytes);
+  bytes.insert(bytes.end(), vocabulary.origin().begin(), vocabulary.origin().end());
+  for (NodeId node = 0; node < vocabulary.node_count(); ++node) {
+    const auto [begin, end] = vocabulary.children(node);
+    bytes.push_back(static_cast<std::uint8_t>(end - begin));
+  }
+  for (NodeId node = 1; node < vocabulary.node_count(); ++node) append_descriptor(vocabulary.descriptor(node), bytes);
+  for (WordId word = 0; word < vocabulary.word_count(); ++word)
+    append_number(std::bit_cast<std::uint32_t>(vocabulary.weight(word)), bytes);
+  append_number(fnv1a(bytes), bytes);
+  return bytes;
+}
+
+void write_vocabulary(const fs::path& path, const Vocabulary& vocabulary) {
+  const std::vector<std::uint8_t> bytes = vocabulary_bytes(vocabulary);
+  const fs::path unfinished = path.string() + ".unfinished";
+  std::ofstream file(unfinished, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(unfinished, path, error);
+  if (file && !error) return;
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  throw Error(path.string(), "cannot be written", "check that the folder exists, is writable and has space left");
+}
+
+}  // namespace ldso
