@@ -90,10 +90,13 @@ class Scene {
       }
     }
     if (!edge) return hits(x, y).grey;
+    constexpr int kSide = 8;
     double sum = 0;
-    for (int k = 0; k < 64; ++k)
-      sum += look(T_world_camera, x + (k % 8) / 8.0 - 0.4375, y + (k / 8) / 8.0 - 0.4375).grey;
-    return sum / 64;
+    for (int k = 0; k < kSide * kSide; ++k) {
+      const int row = k / kSide, column = k % kSide;
+      sum += look(T_world_camera, x + (column - 3.5) / kSide, y + (row - 3.5) / kSide).grey;
+    }
+    return sum / (kSide * kSide);
   }
 
   static double uniform(std::mt19937& generator) { return generator() / 4294967296.0; }
