@@ -133,12 +133,12 @@ TEST_F(Gauge, StaysFreeAfterManyMarginalizations) {
     EXPECT_LT(felt(window.prior.H, N), 1e-4) << "after " << marginalized;
     EXPECT_LT((N.transpose() * window.prior.b).norm(), 1e-3 * window.prior.b.norm()) << "after " << marginalized;
     for (const auto& k : window.keyframes) {
-      if (k->in_prior) moved = std::max(moved, k->state.delta.norm());
+      if (k->in_prior) moved = std::max(moved, k->state.delta.head<6>().norm());
     }
   }
   EXPECT_EQ(marginalized, kFrames - kWindow);
   // The estimates have left the points of linearization: with Jacobians at the estimate the claim would not hold.
-  EXPECT_GT(moved, 1e-5);
+  EXPECT_GT(moved, 1e-4);
   Eigen::MatrixXd other = Eigen::MatrixXd::Zero(window.dim(), 1);
   other.col(0).segment<3>(Window::offset(1)) << 1, 0, 0;
   EXPECT_GT(felt(window.prior.H, other), 1e-2);
