@@ -195,7 +195,10 @@ void NormalEquationsBuilder::accumulate_chunk(const Window& window, const FrameP
       gradient += s.rgx * J.idepth.x() + s.rgy * J.idepth.y();
     }
     point.idepth_hessian = hessian;
-    if (!(hessian > kLeastHessian)) continue;
+    if (!(hessian > kLeastHessian)) {
+      coupling.setZero();  // A point that is not eliminated takes nothing away.
+      continue;
+    }
     system.scale[i] = 1.0f / std::sqrt(hessian * static_cast<float>(1.0 + damping));
     coupling *= system.scale[i];
     system.gradient[i] = gradient * system.scale[i];
