@@ -49,6 +49,7 @@ class Scene {
     try_plane(o, d, Eigen::Vector3d(0.25, 0.05, 1), 5.0, 0, best);  // wall
     try_plane(o, d, Eigen::Vector3d(0, 1, 0), 1.2, 1, best);        // floor
     try_plane(o, d, Eigen::Vector3d(0, 0, 1), 2.5, 2, best);        // board
+    if (best.plane >= 0) best.grey = texture(o + best.depth * d, best.plane);
     return best;
   }
 
@@ -108,13 +109,18 @@ class Scene {
     const Eigen::Vector3d p = o + depth * d;
     const bool board = which == 2;
     if (board && (std::abs(p.x() - 0.5) > 0.55 || std::abs(p.y() + 0.2) > 0.5)) return;
+    best.depth = depth;
+    best.plane = which;
+  }
+
+  double texture(const Eigen::Vector3d& p, int plane) const {
     double grey = 120;
     // Finer where it is near, coarser where it is seen at a grazing angle: no aliasing.
-    const double fineness = board ? 1.6 : which == 1 ? 0.35 : 1.0;
-    const double s = fineness * p.x() + 3.7 * which;
-    const double t = fineness * (which == 1 ? p.z() : p.y()) + 1.9 * which;
+    const double fineness = plane == 2 ? 1.6 : plane == 1 ? 0.35 : 1.0;
+    const double s = fineness * p.x() + 3.7 * plane;
+    const double t = fineness * (plane == 1 ? p.z() : p.y()) + 1.9 * plane;
     for (const Wave& w : waves_) grey += w.amplitude * std::sin(w.fx * s + w.fy * t + w.phase);
-    best = {depth, grey, which};
+    return grey;
   }
 
   PinholeIntrinsics camera_;
