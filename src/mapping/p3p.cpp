@@ -96,7 +96,7 @@ struct LinePair {
 
 LinePair lines_of(const Matrix3d& D) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(D);
-  const Vector3d values = eigen.eigenvalues();  // ascending; the middle one is 0 but for rounding
+  const Vector3d& values = eigen.eigenvalues();  // ascending; the middle one is 0 but for rounding
   LinePair lines;
   if (!(values[0] < 0 && values[2] > 0)) return lines;
   const Vector3d p = std::sqrt(values[2]) * eigen.eigenvectors().col(2);

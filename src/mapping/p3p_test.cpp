@@ -160,7 +160,10 @@ TEST(P3pTest, DegenerateInputHasNoSolution) {
   same_bearing.bearings[1] = 2 * same_bearing.bearings[0];
   EXPECT_EQ(solve_p3p(same_bearing.bearings, same_bearing.points).count, 0);
 
-  EXPECT_EQ(solve_p3p({}, {}).count, 0);
+  Triple zeros;
+  zeros.fill(Vector3d::Zero());
+  EXPECT_EQ(solve_p3p(zeros, good.points).count, 0);
+  EXPECT_EQ(solve_p3p(good.bearings, zeros).count, 0);
 }
 
 TEST(P3pTest, NumbersThatAreNotFiniteHaveNoSolution) {

@@ -112,7 +112,9 @@ Consistency consistency(const Sim3SceneSettings& settings, int trials) {
 // The uncertainty is true: over many draws x^T H x is distributed as chi-squared with 7 degrees of freedom, whose
 // mean over 200 draws is 7 +- 0.26; a little below is right as the variance is never taken smaller than claimed.
 TEST(Sim3EstimatorTest, InformationIsTrue) {
-  const Consistency plain = consistency({}, 200);
+  Sim3SceneSettings settings;
+  settings.count = 80;
+  const Consistency plain = consistency(settings, 200);
   EXPECT_GT(plain.mean_nees, 6.0);
   EXPECT_LT(plain.mean_nees, 7.7);
   EXPECT_LT(plain.bias.cwiseAbs().maxCoeff(), 0.25) << plain.bias.transpose();
@@ -123,6 +125,7 @@ TEST(Sim3EstimatorTest, InformationIsTrue) {
 
 TEST(Sim3EstimatorTest, InformationIsTrueAmongOutliers) {
   Sim3SceneSettings settings;
+  settings.count = 100;
   settings.outlier_share = 0.3;
   settings.depth_outlier_share = 0.1;
   const Consistency result = consistency(settings, 200);
@@ -135,6 +138,7 @@ TEST(Sim3EstimatorTest, InformationIsTrueAmongOutliers) {
 // Noise larger than claimed shows in the residuals, and the information tells it.
 TEST(Sim3EstimatorTest, InformationFollowsLargerNoise) {
   Sim3SceneSettings settings;
+  settings.count = 80;
   settings.noise_scale = 1.7;
   settings.idepth_noise_scale = 2;
   settings.relative_depth_sigma = 0.03;
