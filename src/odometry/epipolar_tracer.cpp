@@ -190,8 +190,8 @@ TraceStatus EpipolarTracer::trace(ImmaturePoint& point, const PatternWarp& warp)
   refine(warp, segment, match);
   const bool left = std::hypot(match.x - coarse.x, match.y - coarse.y) > 2;
   if (!(match.energy < point.energy_threshold * kOutlierSlack) || left) {
-    // A second failure in a row means the point is not there.
-    return point.status = point.status == TraceStatus::kOutlier ? TraceStatus::kOutOfView : TraceStatus::kOutlier;
+    // The next frame may find it again; one that the next keyframe finds like this is removed there.
+    return point.status = TraceStatus::kOutlier;
   }
   const float* K = warp.KRKi;
   const float px = K[0] * point.u + K[1] * point.v + K[2];
