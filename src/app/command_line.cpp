@@ -34,15 +34,23 @@ std::vector<std::string> option_names(const CLI::App& app) {
 
 std::string without_value(const std::string& argument) { return argument.substr(0, argument.find('=')); }
 
-/// The command that was named, or the program itself.
+/// The command that was named (of commands in a command the innermost), or the program itself.
 const CLI::App& chosen_command(const CLI::App& app) {
   const auto commands = app.get_subcommands();
-  return commands.empty() ? app : *commands.front();
+  return commands.empty() ? app : chosen_command(*commands.front());
+}
+
+/// "; see ldso vocab train --help"
+std::string see_help(const CLI::App& command) {
+  std::string names;
+  for (const CLI::App* app = &command; app->get_parent() != nullptr; app = app->get_parent())
+    names = app->get_name() + " " + names;
+  return "; see ldso " + names + "--help";
 }
 
 std::string describe_extras(const CLI::App& app) {
   const CLI::App& command = chosen_command(app);
-  const std::string help = "; see ldso " + (&command == &app ? "" : command.get_name() + " ") + "--help";
+  const std::string help = see_help(command);
   for (const std::string& argument : app.remaining(true)) {
     if (argument.size() < 2 || argument[0] != '-') continue;
     return "unknown option " + argument + "; did you mean " +
@@ -77,8 +85,7 @@ int run_command_line(CLI::App& app, int argc, const char* const* argv, const int
     const auto extras = app.remaining(true);
     if (!extras.empty() && extras.front()[0] == '-') return fail(describe_extras(app));
     const CLI::App& command = chosen_command(app);
-    return fail(std::string(error.what()) + "; see ldso " + (&command == &app ? "" : command.get_name() + " ") +
-                "--help");
+    return fail(error.what() + see_help(command));
   } catch (const std::exception& error) {
     return fail(error.what());
   }

@@ -7,6 +7,7 @@
 #include "app/eval.h"
 #include "app/run.h"
 #include "app/versions.h"
+#include "app/vocab.h"
 #ifdef LDSO_HAS_SIMULATE
 #include "app/simulate.h"
 #endif
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   ldso::add_run_command(app, exit_code);
   ldso::add_eval_command(app);
+  ldso::add_vocab_command(app);
 #ifdef LDSO_HAS_SIMULATE
   ldso::add_simulate_command(app);
 #endif

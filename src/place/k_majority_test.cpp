@@ -44,15 +44,15 @@ TEST(KMajority, FindsTheCentersOfGroups) {
 }
 
 TEST(KMajority, DoesNotDependOnThreads) {
-  const Groups groups = make_groups(30, 500, 60);
-  const Clusters alone = cluster_descriptors(groups.descriptors, 10, 5, 3, nullptr);
+  const Groups groups = make_groups(30, 300, 60);
+  const Clusters alone = cluster_descriptors(groups.descriptors, 10, 3, 3, nullptr);
   for (const int threads : {1, 2, 5}) {
     ThreadPool pool(threads);
-    const Clusters shared = cluster_descriptors(groups.descriptors, 10, 5, 3, &pool);
+    const Clusters shared = cluster_descriptors(groups.descriptors, 10, 3, 3, &pool);
     EXPECT_EQ(shared.centers, alone.centers);
     EXPECT_EQ(shared.cluster_of, alone.cluster_of);
   }
-  EXPECT_NE(cluster_descriptors(groups.descriptors, 10, 5, 4, nullptr).centers, alone.centers);
+  EXPECT_NE(cluster_descriptors(groups.descriptors, 10, 3, 4, nullptr).centers, alone.centers);
 }
 
 TEST(KMajority, FewerDifferentDescriptorsThanClusters) {

@@ -11,7 +11,7 @@
 namespace ldso {
 namespace {
 
-constexpr std::uint32_t kLargeNode = 1 << 16;  ///< From so many descriptors on threads share a node.
+constexpr std::uint32_t kLargeNode = 1 << 14;  ///< From so many descriptors on threads share a node.
 
 struct Range {
   std::uint32_t begin = 0, end = 0;

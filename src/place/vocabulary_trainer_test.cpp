@@ -43,8 +43,8 @@ TEST(VocabularyTrainer, RecognizesPlaces) {
 }
 
 TEST(VocabularyTrainer, SameResultForAnyNumberOfThreads) {
-  // The root has more than the 65536 descriptors from which on threads share a node.
-  auto images = made_up_images(1200, 40);
+  // The root has more than the 16384 descriptors from which on threads share a node.
+  auto images = made_up_images(300, 40);
   TrainingOptions options = small_options();
   options.iterations = 3;
   std::vector<std::uint8_t> expected;
