@@ -12,6 +12,7 @@
 #include "ldso/calibration.h"
 #include "ldso/se3.h"
 #include "ldso/sim3.h"
+#include "mapping/matrix7d.h"
 #include "mapping/sim3_residual.h"
 
 namespace ldso {
@@ -33,8 +34,6 @@ enum class Sim3Status {
   kTooFew,      ///< Too few matches, or too few that fit.
   kDegenerate,  ///< The matches that fit leave rotation or translation undetermined, or the initial guess is no use.
 };
-
-using Matrix7d = Eigen::Matrix<double, 7, 7>;
 
 struct Sim3Estimate {
   Sim3Status status = Sim3Status::kTooFew;
