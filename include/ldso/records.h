@@ -6,6 +6,7 @@
 
 #include "ldso/image.h"
 #include "ldso/se3.h"
+#include "ldso/sim3.h"
 
 namespace ldso {
 
@@ -34,12 +35,51 @@ struct MapPoint {
   bool is_corner = false;
 };
 
+/// Where a keyframe was relative to another one while both were in the sliding window, as estimated last.
+struct KeyframeConstraint {
+  std::int64_t keyframe_id = 0;  ///< The other keyframe.
+  SE3d T_this_other;             ///< Maps points of the other to this one.
+  /// Of x = [rho, omega, log scale] in S_true = exp(x) * T_this_other. The scale is that by which the unit of the map
+  /// may have wandered between both.
+  Sim3d::Jacobian covariance = Sim3d::Jacobian::Zero();
+};
+
 /// A keyframe as it left the sliding window: final pose and points.
 struct KeyframeUpdate {
   std::int64_t frame_id = 0;
   double timestamp = 0;
   SE3d T_world_camera;
   std::vector<MapPoint> points;
+  std::vector<KeyframeConstraint> constraints;  ///< To the keyframes that stayed when it left, oldest first.
+};
+
+/// A point of a loop in both of its images.
+struct LoopMatchPixels {
+  float u_candidate = 0, v_candidate = 0;  ///< Pixel of the point in the candidate keyframe (rectified image).
+  float u = 0, v = 0;                      ///< Pixel of the corner in the keyframe that closes the loop.
+};
+
+/// A pair of keyframes that looked like one place, and what came of it.
+struct LoopRecord {
+  std::int64_t keyframe_id = 0;   ///< The later keyframe (its frame_id).
+  std::int64_t candidate_id = 0;  ///< The earlier one that looks like the same place.
+  bool accepted = false;
+  std::string reason;             ///< Why it was refused, or empty.
+  double score = 0;               ///< Of place recognition, 0..1.
+  int descriptor_matches = 0;     ///< By appearance alone.
+  int pnp_inliers = 0;            ///< Of those, explained by one camera pose.
+  int points_in_view = 0;         ///< Points of the candidate that should be seen.
+  int points_seen = 0;            ///< Of those, found.
+  int inliers = 0;                ///< Points of the candidate's local map found where the similarity says.
+  int depth_inliers = 0;          ///< Of those, with a depth in the later keyframe that fits.
+  double covered_cells = 0;       ///< Share of the image's cells with inliers.
+  Sim3d S_keyframe_candidate;     ///< Maps points of the candidate to the keyframe; the identity if it got not so far.
+  double translation_stddev = 0;  ///< [map units]
+  double rotation_stddev = 0;     ///< [rad]
+  double log_scale_stddev = 0;
+  double drift_chi2 = 0;                 ///< Distance from the odometry, squared, in its standard deviations.
+  double graph_weight = 1;               ///< What the pose graph left it of its pull, 0..1.
+  std::vector<LoopMatchPixels> matches;  ///< Inliers of an accepted loop.
 };
 
 }  // namespace ldso

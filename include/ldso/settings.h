@@ -182,6 +182,16 @@ struct InitializerSettings {
   }
 };
 
+/// Loop closing [L III-C, III-D].
+struct LoopSettings {
+  bool enabled = true;  ///< Off: pure odometry.
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("enabled", s.enabled);
+  }
+};
+
 /// Everything that steers the system. Defaults are the published ones unless measured better.
 struct Settings {
   int threads = 2;  ///< Worker threads; results do not depend on it.
@@ -192,6 +202,7 @@ struct Settings {
   TracingSettings tracing;
   KeyframeSettings keyframes;
   WindowSettings window;
+  LoopSettings loops;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -203,6 +214,7 @@ struct Settings {
     visit("tracing", s.tracing);
     visit("keyframes", s.keyframes);
     visit("window", s.window);
+    visit("loops", s.loops);
   }
 
   /// Throws ldso::Error naming the field, its value and the allowed range.

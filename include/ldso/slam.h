@@ -17,6 +17,7 @@
 #include "ldso/log.h"
 #include "ldso/records.h"
 #include "ldso/settings.h"
+#include "ldso/sim3.h"
 
 namespace ldso {
 
@@ -41,11 +42,19 @@ struct StageTime {
   double worst_ms = 0;
 };
 
+/// Which poses of the keyframes to take: those of the odometry, or those after loop closing (the same if no loop was
+/// closed).
+enum class Correction { kNone, kLoops };
+
 /// Everything that is left after the last frame. Poses and points have the free scale of a single camera.
 struct SlamResult {
-  std::vector<FrameRecord> frames;        ///< Of all frames, in the order in which they came.
-  std::vector<KeyframeUpdate> keyframes;  ///< With final poses and points, in the order of their frame ids.
-  PinholeIntrinsics camera;               ///< Of the rectified images, as estimated: the points' pixels are its own.
+  std::vector<FrameRecord> frames;  ///< Of all frames, in the order in which they came.
+  /// With poses and points as the odometry left them, in the order of their frame ids (constraints are not kept).
+  std::vector<KeyframeUpdate> keyframes;
+  /// Poses of `keyframes` after loop closing, as similarities, for their own units differ; empty without loops.
+  std::vector<Sim3d> corrected;
+  std::vector<LoopRecord> loops;  ///< All pairs of keyframes that looked alike, accepted or refused.
+  PinholeIntrinsics camera;       ///< Of the rectified images, as estimated: the points' pixels are its own.
   /// Frames with which a map was there: that of the first map, then one a restart. Frames before them that waited for
   /// the map may have got their poses afterwards.
   std::vector<std::int64_t> initializations;
@@ -56,13 +65,13 @@ struct SlamResult {
   /// Poses of all frames that have one, in the order of `frames`: that of its reference keyframe, as finally
   /// estimated, times its own relative to it. A frame without a known keyframe or with a pose that is not finite has
   /// none; the first frame of a map has that of the keyframe it became.
-  std::vector<TimedPose> trajectory() const;
+  std::vector<TimedPose> trajectory(Correction correction = Correction::kLoops) const;
 
   /// Poses of the keyframes, in their order.
-  std::vector<TimedPose> keyframe_trajectory() const;
+  std::vector<TimedPose> keyframe_trajectory(Correction correction = Correction::kLoops) const;
 
   /// All points with a positive, finite inverse depth.
-  std::vector<WorldPoint> points() const;
+  std::vector<WorldPoint> points(Correction correction = Correction::kLoops) const;
 };
 
 /// Monocular direct SLAM, one image at a time. The same images and settings give the same bits, whatever

@@ -58,6 +58,7 @@ Settings read_all_settings(const RunArguments& a) {
     set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   if (a.threads) settings.threads = *a.threads;
+  if (a.no_loops) settings.loops.enabled = false;
   settings.validate();
   return settings;
 }
@@ -113,6 +114,7 @@ int run(const RunArguments& a) {
   run_with_display(*dataset, a, summary);
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, *dataset);
+  if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, *dataset);
   write_run_files(a.out, summary, *dataset, a.kitti);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";

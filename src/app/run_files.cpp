@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "app/loops_json.h"
 #include "evaluation/trajectory_picture.h"
 #include "io/ply_file.h"
 #include "io/trajectory_file.h"
@@ -42,6 +43,15 @@ void write_picture(const fs::path& folder, const RunSummary& summary) {
   write_trajectory_picture(path, summary.trajectory, *summary.evaluation.truth, *summary.evaluation.result, options);
 }
 
+/// What loop closing started from, and what it found.
+void write_loop_files(const fs::path& folder, const RunSummary& summary) {
+  for (const char* name : {"trajectory_odometry.txt", "map_odometry.ply", "loops.json"}) fs::remove(folder / name);
+  if (!summary.settings.loops.enabled) return;
+  write_tum_trajectory(folder / "trajectory_odometry.txt", summary.odometry_trajectory);
+  write_ply(folder / "map_odometry.ply", ply_points(summary.odometry_points));
+  write_text(folder / "loops.json", loops_json(summary.run.result.loops).dump(2) + "\n");
+}
+
 }  // namespace
 
 void prepare_output_folder(const fs::path& folder) {
@@ -67,6 +77,7 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   fs::remove(folder / "trajectory_kitti.txt");
   if (kitti) write_kitti_poses(folder / "trajectory_kitti.txt", summary.trajectory);
   write_ply(folder / "map.ply", ply_points(summary.points));
+  write_loop_files(folder, summary);
   write_picture(folder, summary);
   write_text(folder / "run.json", run_json(summary, dataset).dump(2) + "\n");
 }

@@ -80,9 +80,15 @@ Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
 
 Json counts_json(const RunSummary& summary) {
   const SlamResult& result = summary.run.result;
-  return {{"frames", result.frames.size()},        {"frames_with_pose", summary.trajectory.size()},
-          {"keyframes", summary.keyframes.size()}, {"points", summary.points.size()},
-          {"restarts", result.restarts},           {"skipped_frames", result.skipped}};
+  return {{"frames", result.frames.size()},
+          {"frames_with_pose", summary.trajectory.size()},
+          {"keyframes", summary.keyframes.size()},
+          {"points", summary.points.size()},
+          {"restarts", result.restarts},
+          {"skipped_frames", result.skipped},
+          {"loops_closed", std::count_if(result.loops.begin(), result.loops.end(),
+                                         [](const LoopRecord& loop) { return loop.accepted; })},
+          {"loop_candidates", result.loops.size()}};
 }
 
 Json timing_json(const SequenceRun& run) {
@@ -109,12 +115,24 @@ Json evaluation_json(const RunEvaluation& evaluation) {
   return {{"problem", evaluation.problem}};
 }
 
-std::string evaluation_text(const RunEvaluation& evaluation) {
+std::string evaluation_text(const RunSummary& summary) {
+  const RunEvaluation& evaluation = summary.evaluation;
   if (!evaluation.truth) return "";
   if (!evaluation.result) return "not evaluated: " + evaluation.problem + "\n";
   const EvaluationResult& r = *evaluation.result;
-  return format("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
-                r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
+  std::string text = format("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
+                            r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
+  if (!summary.is_corrected() || !summary.odometry_evaluation.result) return text;
+  return text +
+         format("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
+}
+
+std::string loops_text(const RunSummary& summary) {
+  if (!summary.settings.loops.enabled) return "loops          off\n";
+  const auto& loops = summary.run.result.loops;
+  const auto closed = std::count_if(loops.begin(), loops.end(), [](const LoopRecord& l) { return l.accepted; });
+  return format("loops          %td closed, %td candidates refused\n", closed,
+                static_cast<std::ptrdiff_t>(loops.size()) - closed);
 }
 
 }  // namespace
@@ -126,6 +144,8 @@ void collect_results(RunSummary& summary) {
   for (const TimedPose& pose : poses) summary.posed.push_back(pose.frame_id);
   summary.keyframes = stamped(result.keyframe_trajectory());
   summary.points = result.points();
+  summary.odometry_trajectory = stamped(result.trajectory(Correction::kNone));
+  summary.odometry_points = result.points(Correction::kNone);
 }
 
 std::vector<UntrackedStretch> untracked_stretches(const RunSummary& summary) {
@@ -174,7 +194,7 @@ std::string summary_text(const RunSummary& summary) {
       format("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
       format("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
              frames_per_second(summary.run), peak_memory_mb());
-  return text + evaluation_text(summary.evaluation);
+  return text + loops_text(summary) + evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {
@@ -193,6 +213,7 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["untracked"] = untracked_json(summary);
   json["warnings"] = summary.warnings;
   json["evaluation"] = evaluation_json(summary.evaluation);
+  if (summary.is_corrected()) json["evaluation_odometry"] = evaluation_json(summary.odometry_evaluation);
   return json;
 }
 

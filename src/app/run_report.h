@@ -39,8 +39,14 @@ struct RunSummary {
   std::vector<std::int64_t> posed;  ///< Their frame ids.
   Trajectory keyframes;
   std::vector<WorldPoint> points;
+  Trajectory odometry_trajectory;  ///< Before loop closing.
+  std::vector<WorldPoint> odometry_points;
   std::vector<std::string> warnings;
   RunEvaluation evaluation;
+  RunEvaluation odometry_evaluation;  ///< Before loop closing.
+
+  /// Whether loops have changed the poses.
+  bool is_corrected() const { return !run.result.corrected.empty(); }
 };
 
 /// Fills trajectory, keyframes and points from `summary.run`.

@@ -44,8 +44,9 @@ struct Keyframe {
   bool leaving = false;   ///< To be marginalized at the end of this keyframe's turn.
   std::vector<ImmaturePoint> immature;
   std::vector<ActivePoint> points;
-  std::vector<MapPoint> finished;  ///< Points that were marginalized: they belong to the map.
-  int dropped = 0;                 ///< Points that were given up.
+  std::vector<MapPoint> finished;        ///< Points that were marginalized: they belong to the map.
+  std::vector<Eigen::Vector2f> corners;  ///< Pixels of the selected corners, whatever became of them.
+  int dropped = 0;                       ///< Points that were given up.
 
   /// Moves the point of linearization to the estimate; only while no prior touches the frame.
   void relinearize() {

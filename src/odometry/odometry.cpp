@@ -50,12 +50,6 @@ OdometryOutput Odometry::process(const std::shared_ptr<const PreparedFrame>& fra
   return output;
 }
 
-std::vector<KeyframeUpdate> Odometry::window_keyframes() const {
-  std::vector<KeyframeUpdate> updates;
-  for (const auto& keyframe : window_.keyframes) updates.push_back(make_update(*keyframe, true));
-  return updates;
-}
-
 BrightnessPrior Odometry::brightness_prior(const PreparedFrame& frame) const {
   const PhotometrySettings& photometry = settings_.photometry;
   const bool known = calibrated_ && frame.exposure_known;
@@ -147,6 +141,7 @@ void Odometry::start_window(const Initialization& start, const std::shared_ptr<c
   keyframe.prior << Eigen::Vector3d::Constant(kFirstTranslationPrior), Eigen::Vector3d::Constant(kFirstRotationPrior),
       kFirstBrightnessPriorA, kFirstBrightnessPriorB;
   for (const InitialPoint& initial : start.points) {
+    if (initial.is_corner) keyframe.corners.emplace_back(initial.u, initial.v);
     ImmaturePoint immature;
     if (!initial.is_good || !make_immature_point(keyframe.image(), initial.u, initial.v, immature)) continue;
     ActivePoint point;
@@ -220,7 +215,7 @@ void Odometry::handle_loss(const std::string& reason, OdometryOutput& output) {
 }
 
 void Odometry::restart(const std::string& reason, OdometryOutput& output) {
-  for (KeyframeUpdate& update : window_keyframes()) output.finished.push_back(std::move(update));
+  for (FinishedKeyframe& keyframe : window_keyframes()) output.finished.push_back(std::move(keyframe));
   T_start_world_ = T_last_ref_ * newest().state.T_c_w();
   if (!tracker_.depth_map().levels.empty() && tracker_.depth_map().mean_idepth > 0) {
     start_scale_ = 1.0 / tracker_.depth_map().mean_idepth;
@@ -312,7 +307,9 @@ bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, 
     select_candidates(keyframe);
   }
   const StageTimer stage(times_, "keyframe/marginalize_frames");
-  for (KeyframeUpdate& update : marginalizer_.remove_keyframes(window_)) output.finished.push_back(std::move(update));
+  for (FinishedKeyframe& finished : marginalizer_.remove_keyframes(window_)) {
+    output.finished.push_back(std::move(finished));
+  }
   return true;
 }
 
@@ -320,6 +317,7 @@ void Odometry::select_candidates(Keyframe& keyframe) {
   const auto pixels = selector_->select(keyframe.frame->pyramid, keyframe.id(), settings_.selection.candidates);
   keyframe.immature.reserve(pixels.size());
   for (const SelectedPixel& pixel : pixels) {
+    if (pixel.is_corner) keyframe.corners.emplace_back(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
     ImmaturePoint point;
     if (!make_immature_point(keyframe.image(), static_cast<float>(pixel.x), static_cast<float>(pixel.y), point))
       continue;

@@ -26,8 +26,8 @@ namespace ldso {
 /// What one frame brought about.
 struct OdometryOutput {
   FrameRecord frame;
-  std::vector<FrameRecord> late;         ///< Earlier frames whose pose is known only now; they replace what was said.
-  std::vector<KeyframeUpdate> finished;  ///< Keyframes that left the window.
+  std::vector<FrameRecord> late;           ///< Earlier frames whose pose is known only now; they replace what was said.
+  std::vector<FinishedKeyframe> finished;  ///< Keyframes that left the window.
 };
 
 class Odometry {
@@ -39,7 +39,7 @@ class Odometry {
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
 
   /// The keyframes still in the window, as they are.
-  std::vector<KeyframeUpdate> window_keyframes() const;
+  std::vector<FinishedKeyframe> window_keyframes() const { return finish_all(window_); }
 
   const StageTimes& times() const { return times_; }
   const Window& window() const { return window_; }

@@ -28,6 +28,7 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
       pool_(settings.threads),
       odometry_(preprocessor_.output_camera(), preprocessor_.photometrically_calibrated(), settings, pool_) {
   result_.camera = preprocessor_.output_camera();
+  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(log_);
 }
 
 const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame) {
@@ -36,11 +37,33 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
     const StageTimer timer(times_, "odometry");
     output = odometry_.process(frame);
   }
-  std::move(output.finished.begin(), output.finished.end(), std::back_inserter(result_.keyframes));
+  for (FinishedKeyframe& keyframe : output.finished) finish_keyframe(std::move(keyframe));
   for (FrameRecord& late : output.late) replace(std::move(late));
   note_change(output.frame);
   state_ = output.frame.state;
   return record(std::move(output.frame));
+}
+
+void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
+  result_.keyframes.push_back(keyframe.update);
+  result_.keyframes.back().constraints.clear();
+  if (loops_) loops_->add(std::move(keyframe), odometry_.window().intrinsics());
+}
+
+void Pipeline::close_loops() {
+  if (!loops_) return;
+  const LoopCloser* closer = loops_->finish();
+  if (closer == nullptr) return;
+  add_times(closer->times(), result_.stage_times);
+  result_.loops = closer->loops();
+  const bool any = std::any_of(result_.loops.begin(), result_.loops.end(), [](const auto& l) { return l.accepted; });
+  if (!any) return;
+  std::map<std::int64_t, Sim3d> poses;
+  for (const CorrectedPose& pose : closer->poses()) poses[pose.frame_id] = pose.S_world_keyframe;
+  for (const KeyframeUpdate& keyframe : result_.keyframes) {
+    const auto pose = poses.find(keyframe.frame_id);
+    result_.corrected.push_back(pose != poses.end() ? pose->second : Sim3d(keyframe.T_world_camera));
+  }
 }
 
 const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const std::string& reason) {
@@ -90,8 +113,7 @@ std::optional<SE3d> Pipeline::T_world_camera() const {
 }
 
 SlamResult Pipeline::finish() {
-  std::vector<KeyframeUpdate> last = odometry_.window_keyframes();
-  std::move(last.begin(), last.end(), std::back_inserter(result_.keyframes));
+  for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) finish_keyframe(std::move(keyframe));
   std::stable_sort(result_.keyframes.begin(), result_.keyframes.end(),
                    [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
   if (!odometry_.window().keyframes.empty()) {
@@ -102,6 +124,7 @@ SlamResult Pipeline::finish() {
     result_.camera.cy = camera[3];
   }
   result_.restarts = odometry_.restarts();
+  close_loops();
   add_times(times_, result_.stage_times);
   add_times(odometry_.times(), result_.stage_times);
   return std::move(result_);

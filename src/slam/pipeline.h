@@ -14,6 +14,7 @@
 #include "ldso/settings.h"
 #include "ldso/slam.h"
 #include "odometry/odometry.h"
+#include "slam/loop_thread.h"
 #include "util/stopwatch.h"
 #include "util/thread_pool.h"
 
@@ -47,6 +48,9 @@ class Pipeline {
   const FrameRecord& record(FrameRecord frame);
   /// What was said of an earlier frame is superseded.
   void replace(FrameRecord late);
+  void finish_keyframe(FinishedKeyframe&& keyframe);
+  /// Waits for loop closing and takes over what it found.
+  void close_loops();
   /// Of the state of tracking: to the log and the result.
   void note_change(const FrameRecord& frame);
 
@@ -54,6 +58,7 @@ class Pipeline {
   FramePreprocessor preprocessor_;
   ThreadPool pool_;
   Odometry odometry_;
+  std::unique_ptr<LoopThread> loops_;  ///< None with loop closing off.
   StageTimes times_;
   SlamResult result_;
   TrackingState state_ = TrackingState::kInitializing;  ///< Of the newest frame that was not skipped.

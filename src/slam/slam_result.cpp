@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <unordered_map>
 
 #include "ldso/slam.h"
@@ -7,50 +8,58 @@ namespace {
 
 bool is_finite(const SE3d& T) { return T.translation().allFinite() && T.rotation().quaternion().coeffs().allFinite(); }
 
-/// Final poses of the keyframes by frame id; only looked up in, so its order does not matter.
-std::unordered_map<std::int64_t, SE3d> poses_by_id(const std::vector<KeyframeUpdate>& keyframes) {
-  std::unordered_map<std::int64_t, SE3d> poses;
-  poses.reserve(keyframes.size());
-  for (const KeyframeUpdate& keyframe : keyframes) {
-    if (is_finite(keyframe.T_world_camera)) poses[keyframe.frame_id] = keyframe.T_world_camera;
-  }
+/// Of the keyframes, in their order.
+std::vector<Sim3d> keyframe_poses(const SlamResult& result, Correction correction) {
+  if (correction == Correction::kLoops && result.corrected.size() == result.keyframes.size()) return result.corrected;
+  std::vector<Sim3d> poses;
+  poses.reserve(result.keyframes.size());
+  for (const KeyframeUpdate& keyframe : result.keyframes) poses.emplace_back(keyframe.T_world_camera);
   return poses;
+}
+
+/// The pose of a frame whose keyframe has a unit of its own.
+SE3d compose(const Sim3d& S_world_keyframe, const SE3d& T_keyframe_frame) {
+  return {S_world_keyframe.rotation() * T_keyframe_frame.rotation(), S_world_keyframe * T_keyframe_frame.translation()};
 }
 
 }  // namespace
 
-std::vector<TimedPose> SlamResult::trajectory() const {
-  const auto keyframe_poses = poses_by_id(keyframes);
+std::vector<TimedPose> SlamResult::trajectory(Correction correction) const {
+  const std::vector<Sim3d> poses_of_keyframes = keyframe_poses(*this, correction);
+  std::unordered_map<std::int64_t, std::size_t> index_of;  // Only looked up in, so its order does not matter.
+  for (std::size_t i = 0; i < keyframes.size(); ++i) index_of[keyframes[i].frame_id] = i;
   std::vector<TimedPose> poses;
   for (const FrameRecord& frame : frames) {
     const bool tracked = frame.state == TrackingState::kTracked;
     // The first frame of a map became a keyframe only after it had been reported as "initializing".
     const bool may_be_first = frame.state == TrackingState::kInitializing;
     if (!tracked && !may_be_first) continue;
-    const auto keyframe = keyframe_poses.find(tracked ? frame.keyframe_id : frame.frame_id);
-    if (keyframe == keyframe_poses.end()) continue;
-    const SE3d T_world_camera = tracked ? keyframe->second * frame.T_keyframe_frame : keyframe->second;
-    if (is_finite(T_world_camera)) poses.push_back({frame.frame_id, frame.timestamp, T_world_camera});
+    const auto keyframe = index_of.find(tracked ? frame.keyframe_id : frame.frame_id);
+    if (keyframe == index_of.end()) continue;
+    const SE3d T = compose(poses_of_keyframes[keyframe->second], tracked ? frame.T_keyframe_frame : SE3d());
+    if (is_finite(T)) poses.push_back({frame.frame_id, frame.timestamp, T});
   }
   return poses;
 }
 
-std::vector<TimedPose> SlamResult::keyframe_trajectory() const {
+std::vector<TimedPose> SlamResult::keyframe_trajectory(Correction correction) const {
+  const std::vector<Sim3d> poses_of_keyframes = keyframe_poses(*this, correction);
   std::vector<TimedPose> poses;
-  for (const KeyframeUpdate& keyframe : keyframes) {
-    if (!is_finite(keyframe.T_world_camera)) continue;
-    poses.push_back({keyframe.frame_id, keyframe.timestamp, keyframe.T_world_camera});
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const SE3d T = compose(poses_of_keyframes[i], SE3d());
+    if (is_finite(T)) poses.push_back({keyframes[i].frame_id, keyframes[i].timestamp, T});
   }
   return poses;
 }
 
-std::vector<WorldPoint> SlamResult::points() const {
+std::vector<WorldPoint> SlamResult::points(Correction correction) const {
+  const std::vector<Sim3d> poses_of_keyframes = keyframe_poses(*this, correction);
   std::vector<WorldPoint> points;
-  for (const KeyframeUpdate& keyframe : keyframes) {
-    for (const MapPoint& point : keyframe.points) {
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    for (const MapPoint& point : keyframes[i].points) {
       const double depth = 1.0 / static_cast<double>(point.idepth);
       const Eigen::Vector3d ray((point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy, 1.0);
-      const Eigen::Vector3d position = keyframe.T_world_camera * Eigen::Vector3d(depth * ray);
+      const Eigen::Vector3d position = poses_of_keyframes[i] * Eigen::Vector3d(depth * ray);
       if (!(point.idepth > 0) || !position.allFinite()) continue;
       points.push_back({position, point.idepth_stddev, point.intensity});
     }

@@ -6,38 +6,12 @@
 namespace ldso {
 namespace {
 
-/// Residuals a point must have now, and must have had as inliers, to be worth keeping.
+/// Residuals a point must have now to be worth keeping.
 constexpr std::size_t kLeastResiduals = 3;
-constexpr int kLeastGoodResiduals = 4;
 /// A point with that many good residuals may go when few keyframes that stay see it.
 constexpr int kManyGoodResiduals = kLeastGoodResiduals + 10;
 
 }  // namespace
-
-MapPoint make_map_point(const ActivePoint& point) {
-  MapPoint result;
-  result.u = point.u;
-  result.v = point.v;
-  result.idepth = point.idepth;
-  // The residuals of a pattern are correlated: one pixel's noise of one grey level is the unit.
-  result.idepth_stddev = std::sqrt(1.0f / std::max(point.idepth_hessian, 1e-3f));
-  result.intensity = point.patch.intensity[4];
-  result.is_corner = point.is_corner;
-  return result;
-}
-
-KeyframeUpdate make_update(const Keyframe& keyframe, bool with_active) {
-  KeyframeUpdate update;
-  update.frame_id = keyframe.id();
-  update.timestamp = keyframe.frame->timestamp;
-  update.T_world_camera = keyframe.state.T_c_w().inverse();
-  update.points = keyframe.finished;
-  if (!with_active) return update;
-  for (const ActivePoint& point : keyframe.points) {
-    if (point.good_residuals >= kLeastGoodResiduals) update.points.push_back(make_map_point(point));
-  }
-  return update;
-}
 
 bool Marginalizer::is_reliable(const ActivePoint& point) const {
   return point.residuals.size() >= kLeastResiduals && point.good_residuals >= kLeastGoodResiduals &&
@@ -85,8 +59,9 @@ void Marginalizer::marginalize_points(Window& window) {
   window.prior.add(weight * (equations.H - equations.H_sc), weight * (equations.b - equations.b_sc), window.delta());
 }
 
-std::vector<KeyframeUpdate> Marginalizer::remove_keyframes(Window& window) {
-  std::vector<KeyframeUpdate> updates;
+std::vector<FinishedKeyframe> Marginalizer::remove_keyframes(Window& window) {
+  std::vector<FinishedKeyframe> finished = finish_leaving(window);
+  WindowPrior known{window.hessian, Eigen::VectorXd::Zero(window.hessian.rows())};
   for (int i = 0; i < window.size();) {
     Keyframe* leaving = window.keyframes[i].get();
     if (!leaving->leaving) {
@@ -98,13 +73,16 @@ std::vector<KeyframeUpdate> Marginalizer::remove_keyframes(Window& window) {
         std::erase_if(point.residuals, [&](const PointResidual& r) { return r.target == leaving; });
       }
     }
-    updates.push_back(make_update(*leaving, false));
     window.prior.marginalize(Window::offset(i), kFrameDof, leaving->prior,
                              -leaving->prior.cwiseProduct(leaving->prior_mean));
+    if (known.H.rows() == window.dim()) {
+      known.marginalize(Window::offset(i), kFrameDof, FrameVector::Zero(), FrameVector::Zero());
+    }
     window.keyframes.erase(window.keyframes.begin() + i);
     window.renumber();
   }
-  return updates;
+  window.hessian = known.H;
+  return finished;
 }
 
 }  // namespace ldso

@@ -4,6 +4,7 @@
 
 #include "ldso/records.h"
 #include "ldso/settings.h"
+#include "odometry/window/finished_keyframe.h"
 #include "odometry/window/normal_equations.h"
 #include "odometry/window/window.h"
 #include "util/thread_pool.h"
@@ -19,7 +20,7 @@ class Marginalizer {
   void remove_points(Window& window);
 
   /// Removes the keyframes flagged as leaving, oldest first, and returns what they leave to the map.
-  std::vector<KeyframeUpdate> remove_keyframes(Window& window);
+  std::vector<FinishedKeyframe> remove_keyframes(Window& window);
 
  private:
   bool is_reliable(const ActivePoint& point) const;
@@ -30,11 +31,5 @@ class Marginalizer {
   ThreadPool& pool_;
   NormalEquationsBuilder builder_;
 };
-
-/// The keyframe as it is now, with its finished points; `with_active` adds the points still in the window.
-KeyframeUpdate make_update(const Keyframe& keyframe, bool with_active);
-
-/// A point of the map from an active one.
-MapPoint make_map_point(const ActivePoint& point);
 
 }  // namespace ldso

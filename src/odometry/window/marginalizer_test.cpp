@@ -94,11 +94,11 @@ TEST_F(MarginalizerTest, ThePriorIsTheWeightedSchurComplementOfTheLeavingPoints)
   reference.marginalize(Window::offset(1), kFrameDof, FrameVector::Zero(), FrameVector::Zero());
   const std::int64_t id = leaving.id();
   const SE3d T_w_c = leaving.state.T_c_w().inverse();
-  const std::vector<KeyframeUpdate> updates = marginalizer.remove_keyframes(window_);
+  const std::vector<FinishedKeyframe> updates = marginalizer.remove_keyframes(window_);
   ASSERT_EQ(updates.size(), 1u);
-  EXPECT_EQ(updates[0].frame_id, id);
-  EXPECT_EQ(updates[0].points.size(), expected_points);
-  EXPECT_LT((updates[0].T_world_camera * T_w_c.inverse()).log().norm(), 1e-12);
+  EXPECT_EQ(updates[0].update.frame_id, id);
+  EXPECT_EQ(updates[0].update.points.size(), expected_points);
+  EXPECT_LT((updates[0].update.T_world_camera * T_w_c.inverse()).log().norm(), 1e-12);
   EXPECT_LT((window_.prior.H - reference.H).norm(), 1e-9 * reference.H.norm());
   ASSERT_EQ(window_.size(), 3);
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ TEST_F(MarginalizerTest, ThePriorIsTheWeightedSchurComplementOfTheLeavingPoints)
       }
     }
   }
-  for (const MapPoint& point : updates[0].points) {
+  for (const MapPoint& point : updates[0].update.points) {
     EXPECT_GT(point.idepth, 0);
     EXPECT_GT(point.idepth_stddev, 0);
     EXPECT_LT(point.idepth_stddev, 1 / std::sqrt(50.0f));
@@ -146,12 +146,13 @@ TEST_F(MarginalizerTest, WeakPointsAreDroppedWithoutATrace) {
   EXPECT_EQ(window_.prior.H.norm(), 0);
 }
 
-TEST_F(MarginalizerTest, UpdatesHoldActivePointsOnDemand) {
-  const Keyframe& keyframe = *window_.keyframes[0];
-  EXPECT_TRUE(make_update(keyframe, false).points.empty());
-  const KeyframeUpdate update = make_update(keyframe, true);
-  EXPECT_GT(update.points.size(), 50u);
-  EXPECT_EQ(update.frame_id, 0);
+TEST_F(MarginalizerTest, KeyframesAtTheEndBringTheirActivePoints) {
+  const std::vector<FinishedKeyframe> all = finish_all(window_);
+  ASSERT_EQ(all.size(), window_.keyframes.size());
+  EXPECT_GT(all[0].update.points.size(), 50u);
+  EXPECT_EQ(all[0].update.frame_id, 0);
+  EXPECT_EQ(all[0].update.constraints.size(), all.size() - 1);
+  EXPECT_TRUE(all.back().update.constraints.empty());
 }
 
 }  // namespace

@@ -23,7 +23,9 @@ struct Window {
   CameraVector camera_prior = CameraVector::Zero();  ///< Precision of a prior around camera_lin.
   std::vector<std::unique_ptr<Keyframe>> keyframes;  ///< Oldest first.
   WindowPrior prior;
-  int front = 0;  ///< Which of the two linearizations in each residual is the accepted one.
+  Eigen::MatrixXd hessian;  ///< Of all variables, inverse depths eliminated, at the last optimization.
+  double rmse = 0;          ///< Of the inliers at the last optimization [grey levels].
+  int front = 0;            ///< Which of the two linearizations in each residual is the accepted one.
 
   int size() const { return static_cast<int>(keyframes.size()); }
   int dim() const { return kCameraDof + kFrameDof * size(); }

@@ -125,7 +125,7 @@ bool WindowOptimizer::try_step(Window& window, const std::vector<PointChunk>& ch
   return true;
 }
 
-Eigen::VectorXd WindowOptimizer::solve(const Window& window, const NormalEquations& equations, double lambda,
+Eigen::VectorXd WindowOptimizer::solve(Window& window, const NormalEquations& equations, double lambda,
                                        bool fix_gauge) const {
   const Eigen::VectorXd delta = window.delta();
   Eigen::MatrixXd H = equations.H + window.prior.H;
@@ -137,6 +137,7 @@ Eigen::VectorXd WindowOptimizer::solve(const Window& window, const NormalEquatio
     H.diagonal().segment<kFrameDof>(offset) += keyframe->prior;
     b.segment<kFrameDof>(offset) += keyframe->prior.cwiseProduct(keyframe->state.delta - keyframe->prior_mean);
   }
+  window.hessian = H - equations.H_sc;
   H.diagonal() *= 1 + lambda;
   H -= equations.H_sc;
   b -= equations.b_sc;
@@ -171,6 +172,7 @@ void WindowOptimizer::settle(Window& window, const std::vector<PointChunk>& chun
     }
   }
   if (report.residuals > 0) report.rmse = std::sqrt(inlier_energy / (report.residuals * kPatternSize));
+  window.rmse = report.rmse;
 }
 
 }  // namespace ldso

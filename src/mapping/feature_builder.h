@@ -1,0 +1,25 @@
+#pragma once
+
+// From a finished keyframe's corners and points to the features that the map keeps.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "image/frame.h"
+#include "ldso/records.h"
+#include "mapping/map_feature.h"
+#include "place/vocabulary.h"
+
+namespace ldso {
+
+struct KeyframeFeatures {
+  std::vector<MapFeature> features;
+  BowVector words;
+};
+
+/// Describes `corners` of `image` and gives those their depth that became points of the map.
+KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen::Vector2f> corners,
+                                std::span<const MapPoint> points, const Vocabulary& vocabulary);
+
+}  // namespace ldso

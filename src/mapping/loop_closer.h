@@ -1,0 +1,93 @@
+#pragma once
+
+// The conductor of loop closing: keyframes that left the window in, corrected keyframe poses out. Describes, asks for
+// places seen before, verifies them, and lets the pose graph distribute what they say.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "image/frame.h"
+#include "ldso/calibration.h"
+#include "ldso/records.h"
+#include "ldso/sim3.h"
+#include "mapping/drift_model.h"
+#include "mapping/keyframe_map.h"
+#include "mapping/loop_detector.h"
+#include "mapping/loop_verifier.h"
+#include "mapping/pose_graph.h"
+#include "place/vocabulary.h"
+#include "util/stopwatch.h"
+
+namespace ldso {
+
+struct LoopCloserSettings {
+  LoopDetectorSettings detection;
+  LoopVerifierSettings verification;
+  PoseGraphSettings graph;
+  double max_drift = 0.15;           ///< Distance of a loop from the odometry, of the way between both, and
+  double max_drift_deg = 30;         ///< its rotation, that drift can explain.
+  double max_drift_log_scale = 1.5;  ///< And its scale.
+  int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
+  double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
+  int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
+};
+
+/// A keyframe's pose after loop closing.
+struct CorrectedPose {
+  std::int64_t frame_id = 0;
+  Sim3d S_world_keyframe;
+};
+
+class LoopCloser {
+ public:
+  explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings = {});
+
+  /// A keyframe that left the window, in the order in which they do, with its image and the camera as estimated then.
+  void add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
+           const PinholeIntrinsics& camera);
+
+  /// Takes all loops into account; the last keyframe stays where the odometry has it.
+  void finish();
+
+  /// Of all keyframes, in the order in which they were added.
+  std::vector<CorrectedPose> poses() const;
+  const std::vector<LoopRecord>& loops() const { return records_; }
+  const StageTimes& times() const { return times_; }
+  const KeyframeMap& map() const { return map_; }
+  const Eigen::Vector3d& variance_factors() const { return variance_factors_; }
+
+ private:
+  /// A verified loop.
+  struct Hypothesis {
+    int current = 0, candidate = 0;
+    Sim3d S_current_candidate;
+    Matrix7d covariance;
+    std::size_t record = 0;
+    bool accepted = false;
+  };
+  void connect(int index);
+  void verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera);
+  /// Why drift cannot explain it; empty if it can.
+  std::string contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;
+  bool confirms(const Hypothesis& older, const Hypothesis& newer) const;
+  void decide(Hypothesis hypothesis);
+  void accept(Hypothesis& hypothesis);
+  void optimize();
+
+  std::shared_ptr<const Vocabulary> vocabulary_;
+  LoopCloserSettings settings_;
+  KeyframeMap map_;
+  LoopDetector detector_;
+  PoseGraph graph_;
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<LoopDiscrepancy> discrepancies_;  ///< Of the accepted loops.
+  std::vector<LoopRecord> records_;
+  std::vector<std::size_t> record_of_loop_;  ///< Of the graph's loops.
+  Eigen::Vector3d variance_factors_ = Eigen::Vector3d::Ones();
+  StageTimes times_;
+};
+
+}  // namespace ldso

@@ -1,0 +1,257 @@
+#include "mapping/loop_verifier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+
+#include "mapping/inlier_spread.h"
+#include "mapping/pinhole_projection.h"
+
+namespace ldso {
+namespace {
+
+/// A corner with depth of the candidate or one of its neighbours, in the candidate's frame.
+struct LocalPoint {
+  int keyframe = 0;
+  int feature = 0;
+  UncertainPoint point;
+};
+
+/// What verification works on: the same for all its steps.
+struct Scene {
+  const KeyframeMap& map;
+  int current, candidate;
+  const PinholeIntrinsics& camera;
+  const LoopVerifierSettings& settings;
+  const std::vector<MapFeature>& seen() const { return map[current].features; }
+};
+
+void add_points(const Scene& scene, int keyframe, const SE3d& T_candidate_keyframe, std::vector<LocalPoint>& points) {
+  const std::vector<MapFeature>& features = scene.map[keyframe].features;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const MapFeature& f = features[i];
+    if (!(f.idepth > 0)) continue;
+    // The host pixel of a direct method is exact: its depth belongs to that very pixel.
+    const UncertainPoint own = back_project(scene.camera, {f.feature.u, f.feature.v}, 0.0, f.idepth, f.idepth_stddev);
+    points.push_back({keyframe, static_cast<int>(i), Sim3d(T_candidate_keyframe) * own});
+  }
+}
+
+/// Points of the candidate first, then those of its neighbours.
+std::vector<LocalPoint> local_map(const Scene& scene) {
+  std::vector<LocalPoint> points;
+  add_points(scene, scene.candidate, SE3d(), points);
+  for (const Neighbour& neighbour : scene.map[scene.candidate].neighbours) {
+    add_points(scene, neighbour.index, neighbour.T_this_other, points);
+  }
+  return points;
+}
+
+Sim3Correspondence correspondence(const Scene& scene, const UncertainPoint& point, int feature) {
+  const MapFeature& seen = scene.seen()[feature];
+  Sim3Correspondence c;
+  c.point = point;
+  c.pixel = {seen.feature.u, seen.feature.v};
+  c.sigma_px = scene.settings.sigma_px;
+  c.idepth = seen.idepth;
+  c.idepth_stddev = seen.idepth_stddev;
+  return c;
+}
+
+/// Matches of the local map's points by descriptors alone, keyframe by keyframe; a feature of the current keyframe
+/// keeps its most similar partner.
+std::vector<LoopMatch> match_blindly(const Scene& scene) {
+  std::vector<int> best(scene.seen().size(), scene.settings.matching.max_distance + 1);
+  std::vector<LoopMatch> of(scene.seen().size());
+  const auto match_with = [&](int keyframe) {
+    for (const FeatureMatch& m :
+         match_descriptors(scene.map[keyframe].features, scene.seen(), scene.settings.matching)) {
+      const bool has_depth = scene.map[keyframe].features[m.a].idepth > 0;
+      if (!has_depth || m.distance >= best[m.b]) continue;
+      best[m.b] = m.distance;
+      of[m.b] = {keyframe, m.a, m.b, false};
+    }
+  };
+  match_with(scene.candidate);
+  for (const Neighbour& neighbour : scene.map[scene.candidate].neighbours) match_with(neighbour.index);
+  std::vector<LoopMatch> matches;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (best[i] <= scene.settings.matching.max_distance) matches.push_back(of[i]);
+  }
+  return matches;
+}
+
+std::vector<Sim3Correspondence> correspondences_of(const Scene& scene, const std::vector<LocalPoint>& points,
+                                                   const std::vector<LoopMatch>& matches) {
+  std::vector<Sim3Correspondence> result;
+  for (const LoopMatch& match : matches) {
+    const auto point = std::find_if(points.begin(), points.end(), [&](const LocalPoint& p) {
+      return p.keyframe == match.keyframe && p.feature == match.feature;
+    });
+    result.push_back(correspondence(scene, point->point, match.current));
+  }
+  return result;
+}
+
+std::optional<PnpResult> solve_pnp(const Scene& scene, const std::vector<Sim3Correspondence>& matches) {
+  std::vector<PnpCorrespondence> pnp;
+  for (const Sim3Correspondence& c : matches) pnp.push_back({c.point.mean, c.pixel, c.sigma_px});
+  PnpSettings settings = scene.settings.pnp;
+  settings.min_inliers = scene.settings.min_pnp_inliers;
+  return pnp_ransac(pnp, scene.camera, settings);
+}
+
+/// Where the local map should appear in the current keyframe; `index` of each in `points`.
+struct Predictions {
+  std::vector<PredictedPoint> points;
+  std::vector<int> index;
+};
+
+Predictions predict(const Scene& scene, const std::vector<LocalPoint>& points, const Sim3d& S, double radius) {
+  Predictions result;
+  // By how much the image is turned: the candidate's x axis seen by the current camera.
+  const Eigen::Vector3d axis = S.rotation() * Eigen::Vector3d::UnitX();
+  const double turn = std::atan2(axis.y(), axis.x());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = S * points[i].point.mean;
+    if (!(p.z() > 0)) continue;
+    const Eigen::Vector2d pixel = project(scene.camera, p);
+    const bool inside =
+        pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= scene.camera.width - 1 && pixel.y() <= scene.camera.height - 1;
+    if (!inside) continue;
+    const Feature& feature = scene.map[points[i].keyframe].features[points[i].feature].feature;
+    PredictedPoint predicted;
+    predicted.pixel = pixel.cast<float>();
+    predicted.radius = static_cast<float>(radius);
+    predicted.descriptor = feature.descriptor;
+    predicted.angle = feature.angle + static_cast<float>(turn);
+    result.points.push_back(predicted);
+    result.index.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+/// Searches the local map in the current keyframe around where `S` puts it, and estimates anew.
+bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius, LoopVerification& result) {
+  const Sim3d S = result.sim3.S_current_candidate;
+  const Predictions predictions = predict(scene, points, S, radius);
+  std::vector<Sim3Correspondence> correspondences;
+  result.matches.clear();
+  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen())) {
+    const LocalPoint& point = points[predictions.index[m.a]];
+    result.matches.push_back({point.keyframe, point.feature, m.b, false});
+    correspondences.push_back(correspondence(scene, point.point, m.b));
+  }
+  result.sim3 = estimate_sim3(correspondences, scene.camera, S, scene.settings.sim3);
+  for (std::size_t i = 0; i < result.matches.size(); ++i) result.matches[i].inlier = result.sim3.is_inlier[i];
+  return result.sim3.status == Sim3Status::kOk;
+}
+
+/// How much of what the candidate saw is there: its own points that should be in view, and those of them where a corner
+/// was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
+void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, LoopVerification& result) {
+  std::vector<Eigen::Vector2f> found;
+  for (const LoopMatch& match : result.matches) {
+    const Feature& feature = scene.seen()[match.current].feature;
+    if (match.inlier) found.emplace_back(feature.u, feature.v);
+  }
+  const double radius = scene.settings.final_radius_px;
+  const Predictions predictions = predict(scene, points, result.sim3.S_current_candidate, radius);
+  for (std::size_t i = 0; i < predictions.points.size(); ++i) {
+    if (points[predictions.index[i]].keyframe != scene.candidate) continue;
+    ++result.num_visible;
+    result.num_seen += std::any_of(found.begin(), found.end(), [&](const Eigen::Vector2f& pixel) {
+      return (pixel - predictions.points[i].pixel).squaredNorm() < radius * radius;
+    });
+  }
+}
+
+std::string refusal(const char* what, double value, const char* limit_word, double limit) {
+  char text[160];
+  std::snprintf(text, sizeof(text), "%s: %.3g (%s %.3g)", what, value, limit_word, limit);
+  return text;
+}
+
+/// Why the similarity must not be believed; empty if it may.
+std::string doubt(const Scene& scene, LoopVerification& result) {
+  const LoopVerifierSettings& s = scene.settings;
+  const Sim3Estimate& sim3 = result.sim3;
+  if (sim3.num_inliers < s.min_inliers) return refusal("inliers", sim3.num_inliers, "at least", s.min_inliers);
+  if (!sim3.scale_determined || sim3.num_depth_inliers < s.min_depth_inliers) {
+    return refusal("inliers with depth on both sides", sim3.num_depth_inliers, "at least", s.min_depth_inliers);
+  }
+  std::vector<Eigen::Vector2d> pixels;
+  for (const LoopMatch& match : result.matches) {
+    const Feature& feature = scene.seen()[match.current].feature;
+    if (match.inlier) pixels.emplace_back(feature.u, feature.v);
+  }
+  const InlierSpread spread = inlier_spread(pixels, scene.camera);
+  result.covered_cells = spread.covered_cells;
+  if (spread.covered_cells < s.min_covered_cells) {
+    return refusal("share of the image with inliers", spread.covered_cells, "at least", s.min_covered_cells);
+  }
+  const double minor = spread.minor_stddev_px / scene.camera.width;
+  if (minor < s.min_minor_stddev) return refusal("spread of the inliers", minor, "at least", s.min_minor_stddev);
+  const double seen = static_cast<double>(result.num_seen) / std::max(1, result.num_visible);
+  if (seen < s.min_seen_share)
+    return refusal("share of the map in view that is seen", seen, "at least", s.min_seen_share);
+  const auto uncertainty = sim3_uncertainty(sim3.information);
+  if (!uncertainty) return "the relative pose is not determined";
+  result.uncertainty = *uncertainty;
+  const double rotation_deg = uncertainty->rotation_rad * 180 / std::numbers::pi;
+  if (rotation_deg > s.max_rotation_deg) {
+    return refusal("standard deviation of the rotation [deg]", rotation_deg, "at most", s.max_rotation_deg);
+  }
+  if (!(uncertainty->log_scale <= s.max_log_scale)) {
+    return refusal("standard deviation of the log scale", uncertainty->log_scale, "at most", s.max_log_scale);
+  }
+  const double translation = uncertainty->translation * scene.map[scene.current].median_idepth;
+  if (translation > s.max_translation) {
+    return refusal("standard deviation of the translation over the depth", translation, "at most", s.max_translation);
+  }
+  return {};
+}
+
+}  // namespace
+
+LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                             const LoopVerifierSettings& settings) {
+  const Scene scene{map, current, candidate, camera, settings};
+  LoopVerification result;
+  const std::vector<LocalPoint> points = local_map(scene);
+  result.matches = match_blindly(scene);
+  result.num_descriptor_matches = static_cast<int>(result.matches.size());
+  if (result.num_descriptor_matches < settings.min_matches) {
+    result.reason = refusal("matches by descriptors", result.num_descriptor_matches, "at least", settings.min_matches);
+    return result;
+  }
+  const std::vector<Sim3Correspondence> blind = correspondences_of(scene, points, result.matches);
+  const std::optional<PnpResult> pnp = solve_pnp(scene, blind);
+  if (!pnp) {
+    result.reason = "no camera pose explains the matches (PnP)";
+    return result;
+  }
+  result.num_pnp_inliers = static_cast<int>(pnp->inliers.size());
+  std::vector<Sim3Correspondence> agreeing;
+  for (const int i : pnp->inliers) agreeing.push_back(blind[i]);
+  std::optional<Sim3d> initial = initial_sim3(agreeing, pnp->T_camera_points);
+  if (!initial) initial = initial_sim3(blind, pnp->T_camera_points);
+  if (!initial) {
+    result.reason = "no match has depth on both sides";
+    return result;
+  }
+  result.sim3.S_current_candidate = *initial;
+  for (const double radius : {settings.search_radius_px, settings.final_radius_px}) {
+    if (refine(scene, points, radius, result)) continue;
+    result.reason = "no similarity explains the matches of the local map";
+    return result;
+  }
+  count_seen(scene, points, result);
+  result.reason = doubt(scene, result);
+  result.accepted = result.reason.empty();
+  return result;
+}
+
+}  // namespace ldso

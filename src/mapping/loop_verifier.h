@@ -1,0 +1,61 @@
+#pragma once
+
+// Do two keyframes show the same place, and how do they lie to each other? Geometry decides: matches by descriptors,
+// PnP, more matches of the candidate's local map, Sim(3) [L III-C].
+
+#include <string>
+#include <vector>
+
+#include "ldso/calibration.h"
+#include "mapping/descriptor_matcher.h"
+#include "mapping/keyframe_map.h"
+#include "mapping/pnp_ransac.h"
+#include "mapping/sim3_estimator.h"
+
+namespace ldso {
+
+struct LoopVerifierSettings {
+  int min_matches = 12;  ///< By descriptors alone.
+  int min_pnp_inliers = 10;
+  int min_inliers = 20;             ///< Of the similarity.
+  int min_depth_inliers = 10;       ///< Of those, with depth on both sides.
+  double min_covered_cells = 0.12;  ///< Share of a coarse grid's cells with an inlier.
+  double min_minor_stddev = 0.04;   ///< Spread of the inliers across their main direction, of the image's width.
+  double min_seen_share = 0.25;     ///< Inliers among the points of the local map that should be in view.
+  double max_rotation_deg = 1.0;    ///< Standard deviation.
+  double max_log_scale = 0.05;      ///< Standard deviation.
+  double max_translation = 0.05;    ///< Standard deviation, of the median depth.
+  double sigma_px = 1.0;            ///< Of a matched corner's place: they lie at whole pixels.
+  double search_radius_px = 8;      ///< Around the projection of a point, first;
+  double final_radius_px = 4;       ///< then.
+  DescriptorMatchSettings matching;
+  PnpSettings pnp;
+  Sim3Settings sim3;
+};
+
+/// A point of the candidate's local map that was found in the current keyframe.
+struct LoopMatch {
+  int keyframe = 0;  ///< That hosts the point: index in the map.
+  int feature = 0;   ///< Its feature there.
+  int current = 0;   ///< Feature of the current keyframe.
+  bool inlier = false;
+};
+
+struct LoopVerification {
+  bool accepted = false;
+  std::string reason;  ///< Why not.
+  int num_descriptor_matches = 0;
+  int num_pnp_inliers = 0;
+  int num_visible = 0;  ///< Own points of the candidate that should be in view.
+  int num_seen = 0;     ///< Those of them where a corner was found.
+  double covered_cells = 0;
+  std::vector<LoopMatch> matches;
+  Sim3Estimate sim3;  ///< S_current_candidate.
+  Sim3Uncertainty uncertainty;
+};
+
+/// `camera`: of the rectified images. Never throws for what it finds; the result says why there is no loop.
+LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                             const LoopVerifierSettings& settings = {});
+
+}  // namespace ldso
