@@ -37,7 +37,7 @@ build "$preset" "${targets[@]}"
 
 # Sanitizers: stop at the first report, and keep the thread sanitizer's shadow memory clear of randomized addresses.
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}
-export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1}
+export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1:suppressions=\"$PWD/scripts/tsan.supp\"}
 wrapper=()
 if [[ $preset == tsan ]] && setarch "$(uname -m)" -R true 2>/dev/null; then
   wrapper=(setarch "$(uname -m)" -R)
