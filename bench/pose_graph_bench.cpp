@@ -80,6 +80,24 @@ void one_more_loop(benchmark::State& state) {
 }
 BENCHMARK(one_more_loop)->Arg(0)->Arg(10)->Unit(benchmark::kMillisecond);
 
+/// The others are closed already, and this one claims that opposite sides of the lap are one place.
+void one_wrong_loop(benchmark::State& state) {
+  PoseGraphScene scene(long_drive());
+  PoseGraph start = make_graph(scene, kLoops - 1, 0);
+  start.optimize(kKeyframes - 1);
+  start.add_loop_edge(scene.wrong_loop(800, kKeyframes - 700));
+  PoseGraph graph = start;
+  PoseGraphReport report;
+  for (auto _ : state) {
+    state.PauseTiming();
+    graph = start;
+    state.ResumeTiming();
+    report = graph.optimize(kKeyframes - 1);
+  }
+  report_outcome(state, report, scene, graph);
+}
+BENCHMARK(one_wrong_loop)->Unit(benchmark::kMillisecond);
+
 /// What the odometry adds while it runs.
 void build(benchmark::State& state) {
   PoseGraphScene scene(long_drive());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ldso/error.h"
+#include "mapping/loop_kernel.h"
 
 namespace ldso {
 namespace {
@@ -36,7 +37,10 @@ PoseGraphResidual::Vector7d weights_of(const Eigen::Vector3d& variance_factors) 
 
 }  // namespace
 
-PoseGraph::PoseGraph(const PoseGraphSettings& settings) : settings_(settings) { settings_.validate(); }
+PoseGraph::PoseGraph(const PoseGraphSettings& settings) : settings_(settings) {
+  settings_.validate();
+  kernel_squared_ = settings_.loop_kernel * settings_.loop_kernel;
+}
 
 void PoseGraph::add_keyframe(std::int64_t id, const Sim3d& S_world_keyframe) {
   if (!ids_.empty() && id <= ids_.back()) {
@@ -82,7 +86,10 @@ PoseGraphReport PoseGraph::optimize(std::int64_t fixed_id) {
   Component component = component_of(index_of(fixed_id));
   component.problem.graduated = needs_graduation(component);
   PoseGraphReport report = solve(component.problem, settings_);
-  if (report.ok) take_over(component);
+  if (report.ok) {
+    kernel_squared_ = settings_.loop_kernel * settings_.loop_kernel * report.loop_variance_factor;
+    take_over(component);
+  }
   return report;
 }
 
@@ -114,10 +121,9 @@ PoseGraph::Component PoseGraph::component_of(std::size_t fixed) const {
 }
 
 bool PoseGraph::needs_graduation(const Component& component) const {
-  for (std::size_t i = 0; i < component.loops.size(); ++i) {
-    if (is_settled_[component.loops[i]]) continue;
-    const double chi2 = loop_chi2(component.problem.loops[i], component.problem.poses);
-    if (!(chi2 < settings_.loop_kernel * settings_.loop_kernel)) return true;
+  const std::vector<double> chi2 = loop_chi2(component.problem);
+  for (std::size_t i = 0; i < chi2.size(); ++i) {
+    if (!is_settled_[component.loops[i]] && !(chi2[i] < kernel_squared_)) return true;
   }
   return false;
 }
@@ -125,10 +131,11 @@ bool PoseGraph::needs_graduation(const Component& component) const {
 void PoseGraph::take_over(const Component& component) {
   const PoseGraphProblem& problem = component.problem;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) poses_[component.keyframes[i]] = problem.poses[i];
-  for (std::size_t i = 0; i < problem.loops.size(); ++i) {
+  const std::vector<double> chi2 = loop_chi2(problem);
+  for (std::size_t i = 0; i < chi2.size(); ++i) {
     PoseGraphLoop& loop = loops_[component.loops[i]];
-    loop.chi2 = loop_chi2(problem.loops[i], problem.poses);
-    loop.weight = geman_mcclure_weight(loop.chi2, settings_.loop_kernel * settings_.loop_kernel);
+    loop.chi2 = chi2[i];
+    loop.weight = geman_mcclure_weight(chi2[i], kernel_squared_);
     is_settled_[component.loops[i]] = true;
   }
 }

@@ -46,8 +46,8 @@ class PoseGraph {
 
   /// Least squares over all keyframes that edges connect with `fixed_id`, which keeps its pose to the last bit. The
   /// others stay where they are: nothing is known of where they are from here. Where edges leave a direction open (two
-  /// chains that a loop without scale connects) it stays as it is. A failed solve leaves all poses and says so.
-  /// Throws Error if the id is unknown.
+  /// chains that a loop without scale connects) the solution is one of those that fit equally well. A failed solve
+  /// leaves all poses and says so. Throws Error if the id is unknown.
   PoseGraphReport optimize(std::int64_t fixed_id);
 
   /// Throws Error if the id is unknown.
@@ -84,6 +84,7 @@ class PoseGraph {
   std::vector<Edge> odometry_, loop_edges_;
   std::vector<PoseGraphLoop> loops_;
   std::vector<bool> is_settled_;  // of the loops: the poses take account of it
+  double kernel_squared_;         // of the loops, as the last optimization found it
   Eigen::Vector3d variance_factors_ = Eigen::Vector3d::Ones();
 };
 

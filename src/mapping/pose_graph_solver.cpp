@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 
 #include "ldso/error.h"
+#include "mapping/loop_kernel.h"
 #include "mapping/sim3_manifold.h"
 
 namespace ldso {
@@ -20,7 +20,9 @@ namespace {
 
 using Vector7d = PoseGraphResidual::Vector7d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Far beyond any residual, and far below where a cost overflows or a weight underflows, on which Ceres ends the
+/// program.
+constexpr double kLargestChi2 = 1e100;
 
 class EdgeCost final : public ceres::SizedCostFunction<7, kSim3Parameters, kSim3Parameters> {
  public:
@@ -37,7 +39,7 @@ class EdgeCost final : public ceres::SizedCostFunction<7, kSim3Parameters, kSim3
       write(J_from, from, jacobians[0]);
       write(J_to, to, jacobians[1]);
     }
-    return r.allFinite();
+    return r.squaredNorm() < kLargestChi2;
   }
 
  private:
@@ -53,75 +55,60 @@ class EdgeCost final : public ceres::SizedCostFunction<7, kSim3Parameters, kSim3
 /// Ceres' convention: the cost is half of rho(squared residual).
 class GemanMcClure final : public ceres::LossFunction {
  public:
-  explicit GemanMcClure(const double& kernel_squared) : kernel_squared_(kernel_squared) {}
+  explicit GemanMcClure(const LoopKernel& kernel) : kernel_(kernel) {}
 
   void Evaluate(double chi2, double rho[3]) const override {
-    const double ratio = 1 / (1 + chi2 / kernel_squared_);
-    rho[0] = chi2 * ratio;
-    rho[1] = ratio * ratio;
-    rho[2] = -2 / kernel_squared_ * ratio * ratio * ratio;
+    rho[0] = 2 * geman_mcclure_cost(chi2, kernel_.squared());
+    rho[1] = geman_mcclure_weight(chi2, kernel_.squared());
+    rho[2] = -2 / kernel_.squared() * rho[1] * std::sqrt(rho[1]);
   }
 
  private:
-  const double& kernel_squared_;
+  const LoopKernel& kernel_;
 };
 
-/// Graduated non-convexity (Yang et al., RA-L 2020, with the Geman-McClure kernel). A redescending kernel is blind for
-/// loops that are far from closed, as every loop is when it is new. So the kernel is wide at first, until the loops
-/// have pulled, and then narrows with each step; who then does not agree with the others is let go. The width is where
-/// the largest residual just keeps its pull, so that it becomes the final one at once if no loop is left that does not
-/// fit.
+std::vector<double> chi2_of(const std::vector<PoseGraphTerm>& terms, const std::vector<Sim3d>& poses,
+                            const Vector7d& weights) {
+  std::vector<double> chi2;
+  chi2.reserve(terms.size());
+  for (const PoseGraphTerm& term : terms) {
+    const Sim3d& from = poses[static_cast<std::size_t>(term.from)];
+    const Sim3d& to = poses[static_cast<std::size_t>(term.to)];
+    chi2.push_back(term.residual->evaluate(from, to, weights).squaredNorm());
+  }
+  return chi2;
+}
+
+/// Narrows the kernel after each step.
 class KernelSchedule final : public ceres::EvaluationCallback {
  public:
-  KernelSchedule(const PoseGraphProblem& problem, const double* state, double final_squared)
-      : problem_(problem),
-        state_(state),
-        final_(final_squared),
-        kernel_squared_(problem.graduated ? kInfinity : final_squared) {}
+  /// `parameters` are where Ceres keeps the poses.
+  KernelSchedule(const PoseGraphProblem& problem, const std::vector<double>& parameters, LoopKernel& kernel)
+      : problem_(problem), parameters_(parameters), kernel_(kernel) {}
 
-  const double& kernel_squared() const { return kernel_squared_; }
-  bool is_final() const { return kernel_squared_ == final_; }
-
-  /// Ceres asks for derivatives where it begins and where it has accepted a step, and for costs only in between: so
+  /// Ceres asks for derivatives where it begins and where it has accepted a step, and for mere costs in between: so
   /// each step is judged by one kernel.
   void PrepareForEvaluation(bool evaluate_jacobians, bool /*new_evaluation_point*/) override {
-    if (!evaluate_jacobians || is_final()) return;
-    if (evaluations_++ > 0) narrow();
-  }
-
-  /// Where no step improves any more at this width.
-  void narrow_on() {
-    quadratic_steps_ = kMaxQuadraticSteps;
-    narrow();
-    evaluations_ = 0;
+    if (!evaluate_jacobians || kernel_.is_final()) return;
+    if (has_begun_) kernel_.narrow(chi2());
+    has_begun_ = true;
   }
 
  private:
-  static constexpr int kMaxQuadraticSteps = 8;
-  static constexpr double kNarrowing = 2;  // of the squared width in each step
-
-  void narrow() {
-    double largest = 0, sum = 0;
+  std::vector<double> chi2() const {
+    std::vector<double> result;
     for (const PoseGraphTerm& loop : problem_.loops) {
-      const Sim3d from = read_sim3(state_ + kSim3Parameters * loop.from);
-      const Sim3d to = read_sim3(state_ + kSim3Parameters * loop.to);
-      const double chi2 = loop.residual->evaluate(from, to, Vector7d::Ones()).squaredNorm();
-      largest = std::max(largest, chi2);
-      sum += chi2;
+      const Sim3d from = read_sim3(parameters_.data() + kSim3Parameters * loop.from);
+      const Sim3d to = read_sim3(parameters_.data() + kSim3Parameters * loop.to);
+      result.push_back(loop.residual->evaluate(from, to, Vector7d::Ones()).squaredNorm());
     }
-    const bool is_settled = std::abs(sum - last_sum_) < 0.1 * last_sum_;
-    last_sum_ = sum;
-    if (std::isinf(kernel_squared_) && 2 * largest > final_ && !is_settled && ++quadratic_steps_ < kMaxQuadraticSteps) {
-      return;
-    }
-    kernel_squared_ = std::max(final_, std::min(kernel_squared_ / kNarrowing, 2 * largest));
+    return result;
   }
 
   const PoseGraphProblem& problem_;
-  const double* state_;
-  double final_, kernel_squared_;
-  double last_sum_ = 0;
-  int evaluations_ = 0, quadratic_steps_ = 0;
+  const std::vector<double>& parameters_;
+  LoopKernel& kernel_;
+  bool has_begun_ = false;
 };
 
 /// All that Ceres refers to, in the order in which it has to live.
@@ -130,12 +117,12 @@ class Solver {
   Solver(PoseGraphProblem& problem, const PoseGraphSettings& settings)
       : problem_(problem),
         settings_(settings),
-        state_(problem.poses.size() * kSim3Parameters),
-        schedule_(problem, state_.data(), settings.loop_kernel * settings.loop_kernel),
-        loss_(schedule_.kernel_squared()),
+        state_(parameters_of(problem.poses)),
+        kernel_(settings.loop_kernel, loop_chi2(problem), problem.graduated),
+        schedule_(problem, state_, kernel_),
+        loss_(kernel_),
         ceres_(problem_options()) {
     for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-      write_sim3(problem.poses[i], state_of(i));
       ceres_.AddParameterBlock(state_of(i), kSim3Parameters, &manifold_);
     }
     ceres_.SetParameterBlockConstant(state_of(problem.fixed));
@@ -145,29 +132,34 @@ class Solver {
 
   PoseGraphReport run() {
     PoseGraphReport report;
-    const double initial_loop_cost = loop_cost(problem_.poses, final_kernel_squared());
-    bool first = true;
-    while (true) {
-      const double kernel_at_start = schedule_.kernel_squared();
+    if (!is_within_range()) {  // Ceres would print it
+      report.reason = "a residual is out of range";
+      return report;
+    }
+    while (!report.converged && report.iterations < settings_.max_iterations) {
       ceres::Solver::Summary summary;
       ceres::Solve(solver_options(settings_.max_iterations - report.iterations), &ceres_, &summary);
-      if (first) {
-        report.initial_cost = summary.initial_cost - loop_cost(problem_.poses, kernel_at_start) + initial_loop_cost;
-      }
-      first = false;
       report.iterations += static_cast<int>(summary.iterations.size()) - 1;
       report.final_cost = summary.final_cost;
       report.reason = summary.message;
       if (!summary.IsSolutionUsable()) return report;
-      report.converged = schedule_.is_final() && summary.termination_type == ceres::CONVERGENCE;
-      if (report.converged || report.iterations >= settings_.max_iterations) break;
-      if (!schedule_.is_final()) schedule_.narrow_on();
+      // With a wider kernel it only means that a narrower one is due.
+      const bool is_done = summary.termination_type == ceres::CONVERGENCE;
+      report.converged = is_done && kernel_.is_final();
     }
+    report.initial_cost = cost();
+    report.loop_variance_factor = kernel_.variance_factor();
     take_over(report);
     return report;
   }
 
  private:
+  static std::vector<double> parameters_of(const std::vector<Sim3d>& poses) {
+    std::vector<double> parameters(poses.size() * kSim3Parameters);
+    for (std::size_t i = 0; i < poses.size(); ++i) write_sim3(poses[i], parameters.data() + kSim3Parameters * i);
+    return parameters;
+  }
+
   static ceres::Problem::Options without_ownership() {
     ceres::Problem::Options options;
     options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -194,12 +186,11 @@ class Solver {
     // down. This much keeps directions that nothing determines (a scale without information) where they are.
     options.initial_trust_region_radius = 1e12;
     options.max_trust_region_radius = 1e12;
-    options.function_tolerance = 1e-6;
+    options.function_tolerance = 1e-4;
     options.parameter_tolerance = 1e-10;
     return options;
   }
 
-  double final_kernel_squared() const { return settings_.loop_kernel * settings_.loop_kernel; }
   double* state_of(std::size_t i) { return state_.data() + kSim3Parameters * i; }
   double* state_of(int i) { return state_of(static_cast<std::size_t>(i)); }
 
@@ -208,10 +199,19 @@ class Solver {
     ceres_.AddResidualBlock(&costs_.back(), loss, state_of(term.from), state_of(term.to));
   }
 
-  double loop_cost(const std::vector<Sim3d>& poses, double kernel_squared) const {
+  /// At the problem's poses.
+  double cost() const {
     double sum = 0;
-    for (const PoseGraphTerm& loop : problem_.loops) sum += geman_mcclure_cost(loop_chi2(loop, poses), kernel_squared);
+    for (const double chi2 : chi2_of(problem_.odometry, problem_.poses, problem_.odometry_weights)) sum += chi2 / 2;
+    for (const double chi2 : loop_chi2(problem_)) sum += geman_mcclure_cost(chi2, kernel_.squared());
     return sum;
+  }
+
+  bool is_within_range() const {
+    const auto is_small = [](double chi2) { return chi2 < kLargestChi2; };
+    const std::vector<double> loops = loop_chi2(problem_);
+    const std::vector<double> odometry = chi2_of(problem_.odometry, problem_.poses, problem_.odometry_weights);
+    return std::all_of(loops.begin(), loops.end(), is_small) && std::all_of(odometry.begin(), odometry.end(), is_small);
   }
 
   void take_over(PoseGraphReport& report) {
@@ -233,6 +233,7 @@ class Solver {
   const Vector7d ones_ = Vector7d::Ones();
   std::vector<double> state_;
   Sim3Manifold manifold_;
+  LoopKernel kernel_;
   KernelSchedule schedule_;
   GemanMcClure loss_;
   std::deque<EdgeCost> costs_;
@@ -243,26 +244,17 @@ class Solver {
 
 void PoseGraphSettings::validate() const {
   if (max_iterations < 1) throw Error("pose graph", "max_iterations is below 1", "allow an iteration at least");
-  if (!(loop_kernel > 0) || !std::isfinite(loop_kernel)) {
-    throw Error("pose graph", "loop_kernel is not a positive number", "the default is 8");
+  if (!(loop_kernel >= 1e-3) || !std::isfinite(loop_kernel)) {
+    throw Error("pose graph", "loop_kernel is not finite or below 0.001", "the default is 8");
   }
-}
-
-double geman_mcclure_cost(double chi2, double kernel_squared) { return chi2 / (1 + chi2 / kernel_squared) / 2; }
-
-double geman_mcclure_weight(double chi2, double kernel_squared) {
-  const double ratio = 1 / (1 + chi2 / kernel_squared);
-  return ratio * ratio;
 }
 
 PoseGraphReport solve(PoseGraphProblem& problem, const PoseGraphSettings& settings) {
   return Solver(problem, settings).run();
 }
 
-double loop_chi2(const PoseGraphTerm& loop, const std::vector<Sim3d>& poses) {
-  const Sim3d& from = poses[static_cast<std::size_t>(loop.from)];
-  const Sim3d& to = poses[static_cast<std::size_t>(loop.to)];
-  return loop.residual->evaluate(from, to, Vector7d::Ones()).squaredNorm();
+std::vector<double> loop_chi2(const PoseGraphProblem& problem) {
+  return chi2_of(problem.loops, problem.poses, Vector7d::Ones());
 }
 
 }  // namespace ldso

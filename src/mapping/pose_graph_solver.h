@@ -15,6 +15,7 @@ struct PoseGraphSettings {
   int max_iterations = 100;  ///< Steps of Levenberg-Marquardt.
   /// Of the loops' Geman-McClure kernel, in standard deviations: a residual of this length counts a quarter. The
   /// length of a true loop's residual is sqrt(7) on average and nearly always below 5.
+  /// Larger where most loops' residuals are (LoopKernel).
   double loop_kernel = 8;
 
   /// Throws Error if a setting is out of range.
@@ -26,13 +27,10 @@ struct PoseGraphReport {
   bool converged = false;  ///< And further iterations would not change them.
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;  ///< Half the sum of squares, the loops' under their kernel.
-  std::string reason;                       ///< Why it ended.
+  /// Of the loops (loop_kernel.h). Above 1 the odometry's information promises more than the loops can confirm.
+  double loop_variance_factor = 1;
+  std::string reason;  ///< Why it ended.
 };
-
-/// Half of an edge's squared residual under the Geman-McClure kernel, and the weight that it puts on the edge.
-/// `chi2` is the squared residual, `kernel_squared` the kernel's size squared; infinity: no kernel.
-double geman_mcclure_cost(double chi2, double kernel_squared);
-double geman_mcclure_weight(double chi2, double kernel_squared);
 
 /// An edge between keyframes by their place in the list of poses.
 struct PoseGraphTerm {
@@ -52,7 +50,7 @@ struct PoseGraphProblem {
 /// Moves the poses to the least cost. If it fails they are left as they were. Never throws.
 PoseGraphReport solve(PoseGraphProblem& problem, const PoseGraphSettings& settings);
 
-/// Squared residual of a loop.
-double loop_chi2(const PoseGraphTerm& loop, const std::vector<Sim3d>& poses);
+/// The loops' squared residuals at the problem's poses.
+std::vector<double> loop_chi2(const PoseGraphProblem& problem);
 
 }  // namespace ldso

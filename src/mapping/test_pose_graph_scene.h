@@ -59,7 +59,10 @@ class PoseGraphScene {
   }
 
   PoseGraphEdge odometry_edge(int from, int to) const {
-    const double growth = std::sqrt(to - from) / settings.overconfidence;
+    // n edges to the n predecessors, each of the variance of the random walk, would together have n (n + 1) / 2 times
+    // its information.
+    const double n = settings.edges_per_keyframe;
+    const double growth = std::sqrt((to - from) * n * (n + 1) / 2) / settings.overconfidence;
     return {from, to, at(odometry, from).inverse() * at(odometry, to),
             information(growth * settings.translation, growth * settings.rotation, growth * settings.log_scale)};
   }
