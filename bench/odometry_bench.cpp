@@ -27,13 +27,13 @@ constexpr int kKeyframes = 7;
 constexpr int kPoints = 2000;
 
 const test::SyntheticScene& scene() {
-  static const test::SyntheticScene instance(PinholeIntrinsics{640, 480, 440, 444, 319.1, 240.2});
-  return instance;
+  static const test::SyntheticScene kScene(PinholeIntrinsics{640, 480, 440, 444, 319.1, 240.2});
+  return kScene;
 }
 
 const std::vector<std::shared_ptr<const PreparedFrame>>& frames() {
-  static const auto instance = test::render_path(scene(), kKeyframes);
-  return instance;
+  static const auto kFrames = test::render_path(scene(), kKeyframes);
+  return kFrames;
 }
 
 /// All keyframes host about as many of the points.

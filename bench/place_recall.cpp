@@ -147,6 +147,16 @@ double recall_at(const Polyline& points, double precision) {
   return recall;
 }
 
+/// Area below the curve: the mean precision at the true pairs.
+double average_precision(const Polyline& points) {
+  double area = 0, recall = 0;
+  for (const Eigen::Vector2d& point : points) {
+    area += (point.x() - recall) * point.y();
+    recall = point.x();
+  }
+  return area;
+}
+
 double mean_score(const Result& result, bool same_place) {
   double sum = 0, count = 0;
   for (const Pair& pair : result.pairs) {
@@ -162,8 +172,9 @@ void print(const std::string& name, const Result& result, const Polyline& points
   std::printf("%s\n  pairs: %td true (mean score %.4f), %td false (%.4f)\n", name.c_str(), same,
               mean_score(result, true), static_cast<std::ptrdiff_t>(result.pairs.size()) - same,
               mean_score(result, false));
-  std::printf("  recall at precision 100 %%: %.1f %%, 99 %%: %.1f %%, 90 %%: %.1f %%\n", 100 * recall_at(points, 1),
-              100 * recall_at(points, 0.99), 100 * recall_at(points, 0.9));
+  std::printf("  recall at precision 100 %%: %.1f %%, 99 %%: %.1f %%, 90 %%: %.1f %%; average precision %.3f\n",
+              100 * recall_at(points, 1), 100 * recall_at(points, 0.99), 100 * recall_at(points, 0.9),
+              average_precision(points));
   std::printf("  of %d views at a place seen before the best candidate is true for %d, false for %d\n", result.queries,
               result.best_is_true, result.best_is_false);
 }

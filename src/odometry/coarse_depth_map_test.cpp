@@ -69,7 +69,7 @@ TEST_F(CoarseDepthMapTest, UsesOnlyInliersIntoTheNewestKeyframe) {
         i % 4 == 0 ? ResidualState::kOutlier : ResidualState::kOutOfView;
   }
   const int half = make_coarse_depth_map(window).levels[0].size();
-  EXPECT_NEAR(half, all / 2, all / 10);
+  EXPECT_NEAR(half, 0.5 * all, 0.1 * all);
   for (ActivePoint& point : host.points) point.residuals.clear();
   EXPECT_EQ(make_coarse_depth_map(window).levels[0].size(), 0);
 }

@@ -1,10 +1,10 @@
 // Bilinear sampling of texels for the kernels of this room; included once for each instruction set.
 
-#if defined(LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H_
-#undef LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H_
+#if defined(LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H
+#undef LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H
 #else
-#define LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H_
+#define LDSO_ODOMETRY_TEXEL_SAMPLING_INL_H
 #endif
 
 #include <hwy/highway.h>

@@ -110,6 +110,8 @@ bool PatchTracker::all_valid(const Image<Texel>& image, const Eigen::Vector2f& c
   for (int y = -kRadius; y <= kRadius; ++y) {
     for (int x = -kRadius; x <= kRadius; ++x) {
       const Eigen::Vector2f p = centre + warp * Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y));
+      // Not lround, a slow call: a patch inside the image has no negative coordinates.
+      // NOLINTNEXTLINE(bugprone-incorrect-roundings)
       if (image(static_cast<int>(p.x() + 0.5f), static_cast<int>(p.y() + 0.5f)).valid == 0) return false;
     }
   }
