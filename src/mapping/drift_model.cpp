@@ -3,17 +3,51 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace ldso {
 namespace {
 
-constexpr int kIterations = 60;
+constexpr int kRounds = 12;
+constexpr int kSteps = 10;
 constexpr double kMostFactor = 1e8;
+/// Median of chi squared with seven degrees of freedom.
+constexpr double kMedianChi2 = 6.35;
 
-Matrix7d total_covariance(const LoopDiscrepancy& d, const Eigen::Vector3d& factors) {
-  Matrix7d C = d.loop_covariance;
-  for (int k = 0; k < 3; ++k) C += factors[k] * d.odometry_covariance[k];
+Matrix7d total_covariance(const LoopDiscrepancy& d, const VarianceFactors& factors) {
+  Matrix7d C = factors.loops * d.loop_covariance;
+  for (int k = 0; k < 3; ++k) C += factors.odometry[k] * d.odometry_covariance[k];
   return C;
+}
+
+/// Maximum likelihood by multiplicative steps that never decrease it (majorization: Zhou, Hu, Zhou, Lange, MM
+/// algorithms for variance components models, JCGS 2019), with one observation a loop.
+void improve_odometry(std::span<const LoopDiscrepancy> discrepancies, VarianceFactors& factors) {
+  Eigen::Array3d shown = Eigen::Array3d::Zero(), expected = Eigen::Array3d::Zero();
+  for (const LoopDiscrepancy& d : discrepancies) {
+    const Eigen::LDLT<Matrix7d> solver(total_covariance(d, factors));
+    const Sim3d::Tangent y = solver.solve(d.x);
+    const Matrix7d inverse = solver.solve(Matrix7d::Identity());
+    if (!y.allFinite() || !inverse.allFinite()) continue;
+    for (int k = 0; k < 3; ++k) {
+      shown[k] += y.dot(d.odometry_covariance[k] * y);
+      expected[k] += inverse.cwiseProduct(d.odometry_covariance[k]).sum();
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (!(expected[k] > 0) || !std::isfinite(shown[k])) continue;
+    factors.odometry[k] = std::clamp(factors.odometry[k] * std::sqrt(shown[k] / expected[k]), 1.0, kMostFactor);
+  }
+}
+
+/// By the median, as some of them may be wrong.
+void improve_loops(std::span<const LoopDiscrepancy> between, VarianceFactors& factors) {
+  std::vector<double> chi2;
+  for (const LoopDiscrepancy& d : between) chi2.push_back(discrepancy_chi2(d, factors));
+  if (chi2.empty()) return;
+  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
+  std::nth_element(chi2.begin(), middle, chi2.end());
+  if (std::isfinite(*middle)) factors.loops = std::clamp(factors.loops * *middle / kMedianChi2, 1.0, kMostFactor);
 }
 
 }  // namespace
@@ -27,30 +61,16 @@ LoopDiscrepancy discrepancy(const Sim3d& S_current_candidate, const Matrix7d& co
   return result;
 }
 
-double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const Eigen::Vector3d& factors) {
+double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactors& factors) {
   return discrepancy.x.dot(total_covariance(discrepancy, factors).ldlt().solve(discrepancy.x));
 }
 
-Eigen::Vector3d estimate_variance_factors(std::span<const LoopDiscrepancy> discrepancies) {
-  // Maximum likelihood by multiplicative steps that never decrease it (majorization: Zhou, Hu, Zhou, Lange, MM
-  // algorithms for variance components models, 2019, with one observation a loop).
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Eigen::Array3d shown = Eigen::Array3d::Zero(), expected = Eigen::Array3d::Zero();
-    for (const LoopDiscrepancy& d : discrepancies) {
-      const Eigen::LDLT<Matrix7d> solver(total_covariance(d, factors));
-      const Sim3d::Tangent y = solver.solve(d.x);
-      const Matrix7d inverse = solver.solve(Matrix7d::Identity());
-      if (!y.allFinite() || !inverse.allFinite()) continue;
-      for (int k = 0; k < 3; ++k) {
-        shown[k] += y.dot(d.odometry_covariance[k] * y);
-        expected[k] += inverse.cwiseProduct(d.odometry_covariance[k]).sum();
-      }
-    }
-    for (int k = 0; k < 3; ++k) {
-      if (!(expected[k] > 0) || !std::isfinite(shown[k])) continue;
-      factors[k] = std::clamp(factors[k] * std::sqrt(shown[k] / expected[k]), 1.0, kMostFactor);
-    }
+VarianceFactors estimate_variance_factors(std::span<const LoopDiscrepancy> with_odometry,
+                                          std::span<const LoopDiscrepancy> between) {
+  VarianceFactors factors;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int step = 0; step < kSteps; ++step) improve_odometry(with_odometry, factors);
+    improve_loops(between, factors);
   }
   return factors;
 }

@@ -27,12 +27,19 @@ struct LoopDiscrepancy {
 /// candidate.
 LoopDiscrepancy discrepancy(const Sim3d& S_current_candidate, const Matrix7d& covariance, const OdometryChain& chain);
 
-/// Squared length of the discrepancy in its standard deviations, if the odometry's variances are `factors` times what
-/// it says; about 7 where both are true.
-double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const Eigen::Vector3d& factors);
+/// By how much variances are larger than what is said of them, each at least 1.
+struct VarianceFactors {
+  Eigen::Vector3d odometry = Eigen::Vector3d::Ones();  ///< Of translation, rotation, log scale.
+  double loops = 1;
+};
 
-/// Factors for the odometry's variances (translation, rotation, scale), each at least 1, that make the discrepancies
-/// most likely.
-Eigen::Vector3d estimate_variance_factors(std::span<const LoopDiscrepancy> discrepancies);
+/// Squared length of the discrepancy in its standard deviations; about 7 where the variances are right.
+double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactors& factors);
+
+/// Factors that make what the loops say most likely: of the odometry by their discrepancies with it, of the loops by
+/// the discrepancies `between` each and the next, whose odometry is the short way from one to the other and whose loop
+/// covariance is that of both. (A wrong lens bends the local maps, and loops seen from different places then disagree.)
+VarianceFactors estimate_variance_factors(std::span<const LoopDiscrepancy> with_odometry,
+                                          std::span<const LoopDiscrepancy> between);
 
 }  // namespace ldso

@@ -7,15 +7,18 @@
 #include <numbers>
 #include <utility>
 
-#include "mapping/feature_builder.h"
 #include "mapping/pinhole_projection.h"
 
 namespace ldso {
 namespace {
 
-/// Share of the windows' information that each of the edges to several keyframes of the window carries: an edge for
-/// every pair counts what it knows more than once.
-double edge_share(std::size_t edges) { return 2.0 / (static_cast<double>(edges + 1)); }
+/// Share of the windows' information that each of a keyframe's edges carries. Keyframes one to n steps apart are all
+/// linked: between two neighbours l of the edges of length l pass, and if the variance grows with the length they
+/// together hold a stretch as n (n + 1) / 2 chains of direct links would.
+double edge_share(std::size_t edges) {
+  const auto n = static_cast<double>(edges);
+  return 2 / (n * (n + 1));
+}
 
 Matrix7d inverse_of(const Matrix7d& covariance) { return covariance.ldlt().solve(Matrix7d::Identity()); }
 
@@ -45,50 +48,57 @@ LoopCloser::LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopC
     : vocabulary_(std::move(vocabulary)),
       settings_(settings),
       detector_(vocabulary_->word_count(), settings.detection),
-      graph_(settings.graph) {}
+      odometry_graph_(settings.graph) {}
 
 void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
                      const PinholeIntrinsics& camera) {
-  const StageTimer timer(times_, "loops");
-  KeyframeFeatures built;
+  KeyframeFeatures features;
   {
     const StageTimer stage(times_, "loops/describe");
-    built = build_features(image, corners, update.points, *vocabulary_);
+    features = build_features(image, corners, update.points, *vocabulary_);
   }
-  const int index = map_.add(update, std::move(built.features));
+  add(update, std::move(features), camera);
+}
+
+void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera) {
+  const int index = map_.add(update, std::move(features.features));
   connect(index);
   std::vector<LoopCandidate> candidates;
   {
     const StageTimer stage(times_, "loops/query");
-    candidates = detector_.detect(map_, built.words);
+    candidates = detector_.detect(map_, features.words);
   }
+  // Places are seen again for a while: not every keyframe has to say so.
+  if (index < last_accepted_ + settings_.spacing) return;
   const StageTimer stage(times_, "loops/verify");
-  for (const LoopCandidate& candidate : candidates) verify(index, candidate, camera);
+  for (const LoopCandidate& candidate : candidates) {
+    if (verify(index, candidate, camera)) break;
+  }
 }
 
 void LoopCloser::connect(int index) {
-  graph_.add_keyframe(index, Sim3d(map_[index].T_world_camera));
+  odometry_graph_.add_keyframe(index, Sim3d(map_[index].T_world_camera));
+  corrected_.emplace_back(map_[index].T_world_camera);
   const std::vector<Neighbour>& neighbours = map_[index].neighbours;
   for (const Neighbour& neighbour : neighbours) {
-    graph_.add_odometry_edge({index, neighbour.index, Sim3d(neighbour.T_this_other),
-                              edge_share(neighbours.size()) * inverse_of(neighbour.covariance)});
+    odometry_graph_.add_odometry_edge({index, neighbour.index, Sim3d(neighbour.T_this_other),
+                                       edge_share(neighbours.size()) * inverse_of(neighbour.covariance)});
   }
 }
 
-void LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera) {
+bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera) {
   const LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_.verification);
   records_.push_back(make_record(map_, index, candidate, v));
-  if (!v.accepted) return;
+  if (!v.accepted) return false;
   LoopRecord& record = records_.back();
   for (const LoopMatch& match : v.matches) {
     if (!match.inlier) continue;
     const Feature& f = map_[index].features[match.current].feature;
-    const Feature& g = map_[match.keyframe].features[match.feature].feature;
-    record.matches.push_back({g.u, g.v, f.u, f.v});
+    record.matches.push_back({match.candidate_pixel.x(), match.candidate_pixel.y(), f.u, f.v});
   }
   Hypothesis hypothesis{
       index, candidate.index, v.sim3.S_current_candidate, inverse_of(v.sim3.information), records_.size() - 1, false};
-  decide(std::move(hypothesis));
+  return decide(std::move(hypothesis));
 }
 
 std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {
@@ -114,28 +124,34 @@ std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDi
   return {};
 }
 
+LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis& newer) const {
+  const OdometryChain to_older = map_.chain(newer.current, older.current);
+  const OdometryChain to_newer = map_.chain(older.candidate, newer.candidate);
+  const Sim3d S = to_older.S_from_to * older.S_current_candidate;
+  const Matrix7d A = to_older.S_from_to.adjoint(), B = S.adjoint();
+  LoopDiscrepancy d;
+  d.x = (newer.S_current_candidate * (S * to_newer.S_from_to).inverse()).log();
+  d.loop_covariance = newer.covariance + A * older.covariance * A.transpose();
+  for (int k = 0; k < 3; ++k) {
+    d.odometry_covariance[k] = to_older.covariance[k] + B * to_newer.covariance[k] * B.transpose();
+  }
+  d.length = to_older.length + to_newer.length;
+  return d;
+}
+
 bool LoopCloser::confirms(const Hypothesis& older, const Hypothesis& newer) const {
   const std::vector<int> around = map_.covisible(newer.candidate, 3);
   if (!std::binary_search(around.begin(), around.end(), older.candidate)) return false;
-  const OdometryChain to_older = map_.chain(newer.current, older.current);
-  const OdometryChain to_newer = map_.chain(older.candidate, newer.candidate);
-  const Sim3d predicted = to_older.S_from_to * older.S_current_candidate * to_newer.S_from_to;
-  const Matrix7d A = to_older.S_from_to.adjoint(), B = (to_older.S_from_to * older.S_current_candidate).adjoint();
-  Matrix7d C = newer.covariance + A * older.covariance * A.transpose();
-  for (int k = 0; k < 3; ++k) {
-    C += variance_factors_[k] * (to_older.covariance[k] + B * to_newer.covariance[k] * B.transpose());
-  }
-  const Sim3d::Tangent x = (newer.S_current_candidate * predicted.inverse()).log();
-  return x.dot(C.ldlt().solve(x)) < settings_.confirmation_chi2;
+  return discrepancy_chi2(difference(older, newer), variance_factors_) < settings_.confirmation_chi2;
 }
 
-void LoopCloser::decide(Hypothesis hypothesis) {
+bool LoopCloser::decide(Hypothesis hypothesis) {
   LoopRecord& record = records_[hypothesis.record];
   const LoopDiscrepancy d = discrepancy(hypothesis.S_current_candidate, hypothesis.covariance,
                                         map_.chain(hypothesis.current, hypothesis.candidate));
-  record.drift_chi2 = discrepancy_chi2(d, Eigen::Vector3d::Ones());
+  record.drift_chi2 = discrepancy_chi2(d, {});
   record.reason = contradiction(hypothesis, d);
-  if (!record.reason.empty()) return;
+  if (!record.reason.empty()) return false;
   bool confirmed = record.inliers >= settings_.strong_inliers;
   for (Hypothesis& older : hypotheses_) {
     if (older.current + settings_.confirmation_gap < hypothesis.current) continue;
@@ -146,36 +162,46 @@ void LoopCloser::decide(Hypothesis hypothesis) {
   record.reason = "no second keyframe shows the same";
   if (confirmed) accept(hypothesis);
   hypotheses_.push_back(std::move(hypothesis));
+  return true;
 }
 
 void LoopCloser::accept(Hypothesis& hypothesis) {
   hypothesis.accepted = true;
+  last_accepted_ = hypothesis.current;
   records_[hypothesis.record].accepted = true;
   records_[hypothesis.record].reason.clear();
-  discrepancies_.push_back(discrepancy(hypothesis.S_current_candidate, hypothesis.covariance,
-                                       map_.chain(hypothesis.current, hypothesis.candidate)));
-  graph_.add_loop_edge(
-      {hypothesis.current, hypothesis.candidate, hypothesis.S_current_candidate, inverse_of(hypothesis.covariance)});
-  record_of_loop_.push_back(hypothesis.record);
+  accepted_.push_back(hypothesis);
 }
 
 void LoopCloser::finish() {
-  if (!discrepancies_.empty()) optimize();
+  if (!accepted_.empty()) optimize();
 }
 
 void LoopCloser::optimize() {
   const StageTimer timer(times_, "loops/optimize");
-  variance_factors_ = estimate_variance_factors(discrepancies_);
-  graph_.set_odometry_variance_factors(variance_factors_);
-  graph_.optimize(map_.size() - 1);
-  for (std::size_t i = 0; i < record_of_loop_.size(); ++i) {
-    records_[record_of_loop_[i]].graph_weight = graph_.loops()[i].weight;
+  std::vector<LoopDiscrepancy> with_odometry, between;
+  for (std::size_t i = 0; i < accepted_.size(); ++i) {
+    const Hypothesis& loop = accepted_[i];
+    with_odometry.push_back(
+        discrepancy(loop.S_current_candidate, loop.covariance, map_.chain(loop.current, loop.candidate)));
+    if (i > 0) between.push_back(difference(accepted_[i - 1], loop));
   }
+  variance_factors_ = estimate_variance_factors(with_odometry, between);
+  PoseGraph graph = odometry_graph_;
+  graph.set_odometry_variance_factors(variance_factors_.odometry);
+  for (const Hypothesis& loop : accepted_) {
+    graph.add_loop_edge({loop.current, loop.candidate, loop.S_current_candidate,
+                         inverse_of(variance_factors_.loops * loop.covariance)});
+  }
+  graph.optimize(map_.size() - 1);
+  for (std::size_t i = 0; i < accepted_.size(); ++i)
+    records_[accepted_[i].record].graph_weight = graph.loops()[i].weight;
+  for (int i = 0; i < map_.size(); ++i) corrected_[i] = graph.S_world_keyframe(i);
 }
 
 std::vector<CorrectedPose> LoopCloser::poses() const {
   std::vector<CorrectedPose> poses;
-  for (int i = 0; i < map_.size(); ++i) poses.push_back({map_[i].frame_id, graph_.S_world_keyframe(i)});
+  for (int i = 0; i < map_.size(); ++i) poses.push_back({map_[i].frame_id, corrected_[i]});
   return poses;
 }
 

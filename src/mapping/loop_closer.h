@@ -14,6 +14,7 @@
 #include "ldso/records.h"
 #include "ldso/sim3.h"
 #include "mapping/drift_model.h"
+#include "mapping/feature_builder.h"
 #include "mapping/keyframe_map.h"
 #include "mapping/loop_detector.h"
 #include "mapping/loop_verifier.h"
@@ -32,6 +33,7 @@ struct LoopCloserSettings {
   double max_drift_log_scale = 1.5;  ///< And its scale.
   int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
   double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
+  int spacing = 2;                   ///< Keyframes from one closed loop to the next, at least.
   int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
 };
 
@@ -49,6 +51,9 @@ class LoopCloser {
   void add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
            const PinholeIntrinsics& camera);
 
+  /// The same with features that were built before.
+  void add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera);
+
   /// Takes all loops into account; the last keyframe stays where the odometry has it.
   void finish();
 
@@ -57,7 +62,7 @@ class LoopCloser {
   const std::vector<LoopRecord>& loops() const { return records_; }
   const StageTimes& times() const { return times_; }
   const KeyframeMap& map() const { return map_; }
-  const Eigen::Vector3d& variance_factors() const { return variance_factors_; }
+  const VarianceFactors& variance_factors() const { return variance_factors_; }
 
  private:
   /// A verified loop.
@@ -69,11 +74,14 @@ class LoopCloser {
     bool accepted = false;
   };
   void connect(int index);
-  void verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera);
+  /// Whether the candidate stands as the place of the keyframe, for now or for good.
+  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera);
   /// Why drift cannot explain it; empty if it can.
   std::string contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;
+  /// Of what two hypotheses say of the newer one's similarity.
+  LoopDiscrepancy difference(const Hypothesis& older, const Hypothesis& newer) const;
   bool confirms(const Hypothesis& older, const Hypothesis& newer) const;
-  void decide(Hypothesis hypothesis);
+  bool decide(Hypothesis hypothesis);
   void accept(Hypothesis& hypothesis);
   void optimize();
 
@@ -81,12 +89,13 @@ class LoopCloser {
   LoopCloserSettings settings_;
   KeyframeMap map_;
   LoopDetector detector_;
-  PoseGraph graph_;
+  PoseGraph odometry_graph_;      ///< Without loops.
+  std::vector<Sim3d> corrected_;  ///< Poses of the keyframes.
   std::vector<Hypothesis> hypotheses_;
-  std::vector<LoopDiscrepancy> discrepancies_;  ///< Of the accepted loops.
+  std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
   std::vector<LoopRecord> records_;
-  std::vector<std::size_t> record_of_loop_;  ///< Of the graph's loops.
-  Eigen::Vector3d variance_factors_ = Eigen::Vector3d::Ones();
+  VarianceFactors variance_factors_;
+  int last_accepted_ = -1000;  ///< Keyframe of the last closed loop.
   StageTimes times_;
 };
 

@@ -71,7 +71,7 @@ std::vector<LoopMatch> match_blindly(const Scene& scene) {
       const bool has_depth = scene.map[keyframe].features[m.a].idepth > 0;
       if (!has_depth || m.distance >= best[m.b]) continue;
       best[m.b] = m.distance;
-      of[m.b] = {keyframe, m.a, m.b, false};
+      of[m.b] = {keyframe, m.a, m.b};
     }
   };
   match_with(scene.candidate);
@@ -141,7 +141,8 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
   result.matches.clear();
   for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen())) {
     const LocalPoint& point = points[predictions.index[m.a]];
-    result.matches.push_back({point.keyframe, point.feature, m.b, false});
+    const Eigen::Vector2d pixel = project(scene.camera, point.point.mean);
+    result.matches.push_back({point.keyframe, point.feature, m.b, false, pixel.cast<float>()});
     correspondences.push_back(correspondence(scene, point.point, m.b));
   }
   result.sim3 = estimate_sim3(correspondences, scene.camera, S, scene.settings.sim3);

@@ -15,7 +15,7 @@
 namespace ldso {
 
 struct LoopVerifierSettings {
-  int min_matches = 12;  ///< By descriptors alone.
+  int min_matches = 15;  ///< By descriptors alone.
   int min_pnp_inliers = 10;
   int min_inliers = 20;             ///< Of the similarity.
   int min_depth_inliers = 10;       ///< Of those, with depth on both sides.
@@ -29,7 +29,7 @@ struct LoopVerifierSettings {
   double search_radius_px = 8;      ///< Around the projection of a point, first;
   double final_radius_px = 4;       ///< then.
   DescriptorMatchSettings matching;
-  PnpSettings pnp;
+  PnpSettings pnp{.max_iterations = 300};
   Sim3Settings sim3;
 };
 
@@ -39,6 +39,7 @@ struct LoopMatch {
   int feature = 0;   ///< Its feature there.
   int current = 0;   ///< Feature of the current keyframe.
   bool inlier = false;
+  Eigen::Vector2f candidate_pixel = Eigen::Vector2f::Zero();  ///< Where the candidate sees the point.
 };
 
 struct LoopVerification {
