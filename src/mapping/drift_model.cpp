@@ -20,6 +20,15 @@ Matrix7d total_covariance(const LoopDiscrepancy& d, const VarianceFactors& facto
   return C;
 }
 
+/// Eigen's LDLT makes something finite of a matrix that is not: what is not finite must not get that far.
+std::vector<LoopDiscrepancy> finite_ones(std::span<const LoopDiscrepancy> discrepancies) {
+  std::vector<LoopDiscrepancy> result;
+  for (const LoopDiscrepancy& d : discrepancies) {
+    if (d.x.allFinite() && total_covariance(d, {}).allFinite()) result.push_back(d);
+  }
+  return result;
+}
+
 /// Maximum likelihood by multiplicative steps that never decrease it (majorization: Zhou, Hu, Zhou, Lange, MM
 /// algorithms for variance components models, JCGS 2019), with one observation a loop.
 void improve_odometry(std::span<const LoopDiscrepancy> discrepancies, VarianceFactors& factors) {
@@ -67,10 +76,11 @@ double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactor
 
 VarianceFactors estimate_variance_factors(std::span<const LoopDiscrepancy> with_odometry,
                                           std::span<const LoopDiscrepancy> between) {
+  const std::vector<LoopDiscrepancy> of_odometry = finite_ones(with_odometry), of_loops = finite_ones(between);
   VarianceFactors factors;
   for (int round = 0; round < kRounds; ++round) {
-    for (int step = 0; step < kSteps; ++step) improve_odometry(with_odometry, factors);
-    improve_loops(between, factors);
+    for (int step = 0; step < kSteps; ++step) improve_odometry(of_odometry, factors);
+    improve_loops(of_loops, factors);
   }
   return factors;
 }

@@ -39,6 +39,7 @@ double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactor
 /// Factors that make what the loops say most likely: of the odometry by their discrepancies with it, of the loops by
 /// the discrepancies `between` each and the next, whose odometry is the short way from one to the other and whose loop
 /// covariance is that of both. (A wrong lens bends the local maps, and loops seen from different places then disagree.)
+/// What is not finite does not count.
 VarianceFactors estimate_variance_factors(std::span<const LoopDiscrepancy> with_odometry,
                                           std::span<const LoopDiscrepancy> between);
 
