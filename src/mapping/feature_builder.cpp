@@ -44,6 +44,9 @@ KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen
     }
     result.features.push_back(feature);
   }
+  // Matching goes through the features node by node.
+  std::stable_sort(result.features.begin(), result.features.end(),
+                   [](const MapFeature& a, const MapFeature& b) { return a.node < b.node; });
   return result;
 }
 

@@ -18,7 +18,7 @@ struct KeyframeFeatures {
   BowVector words;
 };
 
-/// Describes `corners` of `image` and gives those their depth that became points of the map.
+/// Describes `corners` of `image` and gives those their depth that became points of the map. Ordered by node.
 KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen::Vector2f> corners,
                                 std::span<const MapPoint> points, const Vocabulary& vocabulary);
 

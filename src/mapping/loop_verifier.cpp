@@ -25,32 +25,41 @@ struct Scene {
   int current, candidate;
   const PinholeIntrinsics& camera;
   const LoopVerifierSettings& settings;
-  const std::vector<MapFeature>& seen() const { return map[current].features; }
+  /// Features of the current keyframe, with the depths that its neighbours lend.
+  std::vector<MapFeature> seen;
 };
 
-void add_points(const Scene& scene, int keyframe, const SE3d& T_candidate_keyframe, std::vector<LocalPoint>& points) {
+/// A corner with depth in its own keyframe's frame.
+UncertainPoint own_point(const Scene& scene, int keyframe, int feature) {
+  const MapFeature& f = scene.map[keyframe].features[feature];
+  // The host pixel of a direct method is exact: its depth belongs to that very pixel.
+  return back_project(scene.camera, {f.feature.u, f.feature.v}, 0.0, f.idepth, f.idepth_stddev);
+}
+
+/// The keyframe's corners with depth, moved by `T`.
+void add_points(const Scene& scene, int keyframe, const SE3d& T, std::vector<LocalPoint>& points) {
   const std::vector<MapFeature>& features = scene.map[keyframe].features;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const MapFeature& f = features[i];
-    if (!(f.idepth > 0)) continue;
-    // The host pixel of a direct method is exact: its depth belongs to that very pixel.
-    const UncertainPoint own = back_project(scene.camera, {f.feature.u, f.feature.v}, 0.0, f.idepth, f.idepth_stddev);
-    points.push_back({keyframe, static_cast<int>(i), Sim3d(T_candidate_keyframe) * own});
+  for (int i = 0; i < static_cast<int>(features.size()); ++i) {
+    if (features[i].idepth > 0) points.push_back({keyframe, i, Sim3d(T) * own_point(scene, keyframe, i)});
   }
 }
 
-/// Points of the candidate first, then those of its neighbours.
+void add_points_of_neighbours(const Scene& scene, int keyframe, std::vector<LocalPoint>& points) {
+  for (const Neighbour& neighbour : scene.map[keyframe].neighbours) {
+    add_points(scene, neighbour.index, neighbour.T_this_other, points);
+  }
+}
+
+/// Points of the candidate first, then those of its neighbours, in the candidate's frame.
 std::vector<LocalPoint> local_map(const Scene& scene) {
   std::vector<LocalPoint> points;
   add_points(scene, scene.candidate, SE3d(), points);
-  for (const Neighbour& neighbour : scene.map[scene.candidate].neighbours) {
-    add_points(scene, neighbour.index, neighbour.T_this_other, points);
-  }
+  add_points_of_neighbours(scene, scene.candidate, points);
   return points;
 }
 
 Sim3Correspondence correspondence(const Scene& scene, const UncertainPoint& point, int feature) {
-  const MapFeature& seen = scene.seen()[feature];
+  const MapFeature& seen = scene.seen[feature];
   Sim3Correspondence c;
   c.point = point;
   c.pixel = {seen.feature.u, seen.feature.v};
@@ -61,20 +70,22 @@ Sim3Correspondence correspondence(const Scene& scene, const UncertainPoint& poin
 }
 
 /// Matches of the local map's points by descriptors alone, keyframe by keyframe; a feature of the current keyframe
-/// keeps its most similar partner.
+/// keeps its most similar partner. Too few with the candidate itself: none.
 std::vector<LoopMatch> match_blindly(const Scene& scene) {
-  std::vector<int> best(scene.seen().size(), scene.settings.matching.max_distance + 1);
-  std::vector<LoopMatch> of(scene.seen().size());
+  std::vector<int> best(scene.seen.size(), scene.settings.matching.max_distance + 1);
+  std::vector<LoopMatch> of(scene.seen.size());
   const auto match_with = [&](int keyframe) {
-    for (const FeatureMatch& m :
-         match_descriptors(scene.map[keyframe].features, scene.seen(), scene.settings.matching)) {
+    const std::vector<FeatureMatch> found =
+        match_descriptors(scene.map[keyframe].features, scene.seen, scene.settings.matching);
+    for (const FeatureMatch& m : found) {
       const bool has_depth = scene.map[keyframe].features[m.a].idepth > 0;
       if (!has_depth || m.distance >= best[m.b]) continue;
       best[m.b] = m.distance;
       of[m.b] = {keyframe, m.a, m.b};
     }
+    return static_cast<int>(found.size());
   };
-  match_with(scene.candidate);
+  if (match_with(scene.candidate) < scene.settings.min_own_matches) return {};
   for (const Neighbour& neighbour : scene.map[scene.candidate].neighbours) match_with(neighbour.index);
   std::vector<LoopMatch> matches;
   for (std::size_t i = 0; i < of.size(); ++i) {
@@ -83,14 +94,16 @@ std::vector<LoopMatch> match_blindly(const Scene& scene) {
   return matches;
 }
 
-std::vector<Sim3Correspondence> correspondences_of(const Scene& scene, const std::vector<LocalPoint>& points,
-                                                   const std::vector<LoopMatch>& matches) {
+/// Of points of the local map; those of neighbours are moved to the candidate's frame.
+std::vector<Sim3Correspondence> correspondences_of(const Scene& scene, const std::vector<LoopMatch>& matches) {
   std::vector<Sim3Correspondence> result;
   for (const LoopMatch& match : matches) {
-    const auto point = std::find_if(points.begin(), points.end(), [&](const LocalPoint& p) {
-      return p.keyframe == match.keyframe && p.feature == match.feature;
-    });
-    result.push_back(correspondence(scene, point->point, match.current));
+    const UncertainPoint own = own_point(scene, match.keyframe, match.feature);
+    const auto& neighbours = scene.map[scene.candidate].neighbours;
+    const auto host = std::find_if(neighbours.begin(), neighbours.end(),
+                                   [&](const Neighbour& neighbour) { return neighbour.index == match.keyframe; });
+    const SE3d T_candidate_host = host != neighbours.end() ? host->T_this_other : SE3d();
+    result.push_back(correspondence(scene, Sim3d(T_candidate_host) * own, match.current));
   }
   return result;
 }
@@ -101,6 +114,15 @@ std::optional<PnpResult> solve_pnp(const Scene& scene, const std::vector<Sim3Cor
   PnpSettings settings = scene.settings.pnp;
   settings.min_inliers = scene.settings.min_pnp_inliers;
   return pnp_ransac(pnp, scene.camera, settings);
+}
+
+/// The scale by the inliers with depth on both sides, or else by all that have it.
+std::optional<Sim3d> first_similarity(const Scene& scene, const std::vector<LoopMatch>& matches, const PnpResult& pnp) {
+  const std::vector<Sim3Correspondence> all = correspondences_of(scene, matches);
+  std::vector<Sim3Correspondence> agreeing;
+  for (const int i : pnp.inliers) agreeing.push_back(all[i]);
+  const std::optional<Sim3d> initial = initial_sim3(agreeing, pnp.T_camera_points);
+  return initial ? initial : initial_sim3(all, pnp.T_camera_points);
 }
 
 /// Where the local map should appear in the current keyframe; `index` of each in `points`.
@@ -133,13 +155,29 @@ Predictions predict(const Scene& scene, const std::vector<LocalPoint>& points, c
   return result;
 }
 
+/// Many corners of the current keyframe never became points of its own because points of its neighbours were there
+/// already: these lend them their depth.
+void borrow_depths(Scene& scene) {
+  std::vector<LocalPoint> points;
+  add_points_of_neighbours(scene, scene.current, points);
+  const Predictions predictions = predict(scene, points, Sim3d(), scene.settings.own_radius_px);
+  for (const FeatureMatch& match : match_by_projection(predictions.points, scene.seen)) {
+    MapFeature& feature = scene.seen[match.b];
+    if (feature.idepth > 0) continue;
+    const UncertainPoint& point = points[predictions.index[match.a]].point;
+    const double z = point.mean.z();
+    feature.idepth = static_cast<float>(1 / z);
+    feature.idepth_stddev = static_cast<float>(std::sqrt(point.covariance(2, 2)) / (z * z));
+  }
+}
+
 /// Searches the local map in the current keyframe around where `S` puts it, and estimates anew.
 bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius, LoopVerification& result) {
   const Sim3d S = result.sim3.S_current_candidate;
   const Predictions predictions = predict(scene, points, S, radius);
   std::vector<Sim3Correspondence> correspondences;
   result.matches.clear();
-  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen())) {
+  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen)) {
     const LocalPoint& point = points[predictions.index[m.a]];
     const Eigen::Vector2d pixel = project(scene.camera, point.point.mean);
     result.matches.push_back({point.keyframe, point.feature, m.b, false, pixel.cast<float>()});
@@ -155,7 +193,7 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
 void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, LoopVerification& result) {
   std::vector<Eigen::Vector2f> found;
   for (const LoopMatch& match : result.matches) {
-    const Feature& feature = scene.seen()[match.current].feature;
+    const Feature& feature = scene.seen[match.current].feature;
     if (match.inlier) found.emplace_back(feature.u, feature.v);
   }
   const double radius = scene.settings.final_radius_px;
@@ -185,7 +223,7 @@ std::string doubt(const Scene& scene, LoopVerification& result) {
   }
   std::vector<Eigen::Vector2d> pixels;
   for (const LoopMatch& match : result.matches) {
-    const Feature& feature = scene.seen()[match.current].feature;
+    const Feature& feature = scene.seen[match.current].feature;
     if (match.inlier) pixels.emplace_back(feature.u, feature.v);
   }
   const InlierSpread spread = inlier_spread(pixels, scene.camera);
@@ -219,31 +257,28 @@ std::string doubt(const Scene& scene, LoopVerification& result) {
 
 LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
                              const LoopVerifierSettings& settings) {
-  const Scene scene{map, current, candidate, camera, settings};
+  Scene scene{map, current, candidate, camera, settings, map[current].features};
   LoopVerification result;
-  const std::vector<LocalPoint> points = local_map(scene);
   result.matches = match_blindly(scene);
   result.num_descriptor_matches = static_cast<int>(result.matches.size());
   if (result.num_descriptor_matches < settings.min_matches) {
     result.reason = refusal("matches by descriptors", result.num_descriptor_matches, "at least", settings.min_matches);
     return result;
   }
-  const std::vector<Sim3Correspondence> blind = correspondences_of(scene, points, result.matches);
-  const std::optional<PnpResult> pnp = solve_pnp(scene, blind);
+  const std::optional<PnpResult> pnp = solve_pnp(scene, correspondences_of(scene, result.matches));
   if (!pnp) {
     result.reason = "no camera pose explains the matches (PnP)";
     return result;
   }
   result.num_pnp_inliers = static_cast<int>(pnp->inliers.size());
-  std::vector<Sim3Correspondence> agreeing;
-  for (const int i : pnp->inliers) agreeing.push_back(blind[i]);
-  std::optional<Sim3d> initial = initial_sim3(agreeing, pnp->T_camera_points);
-  if (!initial) initial = initial_sim3(blind, pnp->T_camera_points);
+  borrow_depths(scene);
+  const std::optional<Sim3d> initial = first_similarity(scene, result.matches, *pnp);
   if (!initial) {
     result.reason = "no match has depth on both sides";
     return result;
   }
   result.sim3.S_current_candidate = *initial;
+  const std::vector<LocalPoint> points = local_map(scene);
   for (const double radius : {settings.search_radius_px, settings.final_radius_px}) {
     if (refine(scene, points, radius, result)) continue;
     result.reason = "no similarity explains the matches of the local map";
