@@ -6,9 +6,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/interrupt.h"
+#include "app/loop_pictures.h"
 #include "app/progress_display.h"
 #include "app/run_files.h"
 #include "app/run_report.h"
@@ -27,7 +29,7 @@ struct RunArguments {
   std::optional<fs::path> config;
   std::optional<int> threads;
   std::vector<std::string> set;
-  bool kitti = false, quiet = false, no_loops = false;
+  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false;
 };
 
 void add_options(CLI::App& command, RunArguments& a) {
@@ -44,7 +46,9 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_option("--set", a.set, "One setting, e.g. selection.strategy=gradient; can be repeated")
       ->type_name("KEY=VALUE");
   command.add_option("--threads", a.threads, "Threads that work on a frame; the result does not depend on it");
-  command.add_flag("--no-loops", a.no_loops, "Odometry alone, without loop closing");
+  CLI::Option* no_loops = command.add_flag("--no-loops", a.no_loops, "Odometry alone, without loop closing");
+  command.add_flag("--loop-pictures", a.loop_pictures, "Also write a picture of each closed loop: loops/*.png")
+      ->excludes(no_loops);
   command.add_flag("--kitti", a.kitti, "Also write trajectory_kitti.txt");
   command.add_flag("--quiet", a.quiet, "Print warnings only");
 }
@@ -98,6 +102,17 @@ void run_with_display(const Dataset& dataset, const RunArguments& a, RunSummary&
   summary.warnings = log.warnings();
 }
 
+/// Frames that cannot be read again cost their pictures only.
+void draw_loops(const RunArguments& a, const Dataset& dataset, RunSummary& summary) {
+  remove_loop_pictures(a.out);
+  if (!a.loop_pictures) return;
+  for (std::string& warning :
+       write_loop_pictures(a.out, summary.run.result.loops, dataset, summary.settings.photometry)) {
+    std::cerr << "warning: " << warning << "\n";
+    summary.warnings.push_back(std::move(warning));
+  }
+}
+
 int exit_code_of(const RunSummary& summary) {
   if (summary.run.stopped) return kInterruptedExitCode;
   return summary.trajectory.empty() ? kNothingTrackedExitCode : 0;
@@ -115,6 +130,7 @@ int run(const RunArguments& a) {
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, *dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, *dataset);
+  draw_loops(a, *dataset, summary);
   write_run_files(a.out, summary, *dataset, a.kitti);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
