@@ -9,19 +9,18 @@ namespace ldso {
 namespace {
 
 constexpr int kRadius = 4;          // of the circles [px]
+constexpr float kCrossArm = 3;      // of the crosses [px]
 constexpr int kCaptionPixels = 26;  // height of its strip
 constexpr int kMargin = 8;
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr int kShift = 4;  // OpenCV takes coordinates in 1/16 px.
 
+const cv::Scalar kAlone(255, 0, 255);  // No match has this colour.
+
 cv::Scalar colour_of(const Rgb& rgb) { return {double(rgb[0]), double(rgb[1]), double(rgb[2])}; }
 
-/// Coordinates far off overflow inside OpenCV, and what is not a number has no place at all.
 cv::Point fixed_point(const Eigen::Vector2f& pixel) {
-  const auto fixed = [](float x) {
-    const float bounded = std::isfinite(x) ? std::clamp(x, -1e5F, 1e5F) : -1e5F;
-    return static_cast<int>(std::lround(bounded * (1 << kShift)));
-  };
+  const auto fixed = [](float x) { return static_cast<int>(std::lround(x * (1 << kShift))); };
   return {fixed(pixel.x()), fixed(pixel.y())};
 }
 
@@ -37,6 +36,18 @@ void copy_grey(ImageView<const float> grey, int column, cv::Mat& picture) {
 
 void draw_circle(cv::Mat& picture, const Eigen::Vector2f& pixel, const cv::Scalar& colour) {
   cv::circle(picture, fixed_point(pixel), kRadius << kShift, colour, 1, cv::LINE_AA, kShift);
+}
+
+void draw_cross(cv::Mat& picture, const Eigen::Vector2f& pixel, const cv::Scalar& colour) {
+  for (const float slope : {1.F, -1.F}) {
+    const Eigen::Vector2f arm(kCrossArm, slope * kCrossArm);
+    cv::line(picture, fixed_point(pixel - arm), fixed_point(pixel + arm), colour, 1, cv::LINE_AA, kShift);
+  }
+}
+
+bool is_inside(const Eigen::Vector2f& pixel, ImageView<const float> image) {
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= static_cast<float>(image.width - 1) &&
+         pixel.y() <= static_cast<float>(image.height - 1);
 }
 
 void write_caption(cv::Mat& picture, const std::string& caption) {
@@ -84,10 +95,16 @@ Image<Rgb> draw_matches(ImageView<const float> left, ImageView<const float> righ
   cv::Mat images = picture.rowRange(0, height);
   const Eigen::Vector2f offset(static_cast<float>(left.width), 0);
   for (const PictureMatch& match : matches) {
-    const cv::Scalar colour = colour_of(match_colour(match.left.x(), left.width));
-    cv::line(images, fixed_point(match.left), fixed_point(match.right + offset), colour, 1, cv::LINE_AA, kShift);
-    draw_circle(images, match.left, colour);
-    draw_circle(images, match.right + offset, colour);
+    const bool in_left = is_inside(match.left, left), in_right = is_inside(match.right, right);
+    const Eigen::Vector2f on_right = match.right + offset;
+    if (in_left && in_right) {
+      const cv::Scalar colour = colour_of(match_colour(match.left.x(), left.width));
+      cv::line(images, fixed_point(match.left), fixed_point(on_right), colour, 1, cv::LINE_AA, kShift);
+      draw_circle(images, match.left, colour);
+      draw_circle(images, on_right, colour);
+    } else if (in_left || in_right) {
+      draw_cross(images, in_left ? match.left : on_right, kAlone);
+    }
   }
   write_caption(picture, caption);
   return to_image(picture);

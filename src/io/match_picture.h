@@ -24,8 +24,8 @@ int caption_height(const std::string& caption);
 /// Both images (grey levels 0..255, rounded and clamped) beside each other, the right one beginning at column
 /// `left.width`, a circle around each point and a thin line from one to the other; below, the caption, in smaller
 /// letters if it is too long. The colour of a match goes with its column on the left from red over green to blue, so
-/// that a match that crosses the others stands out. Points outside of an image are drawn where they would be, as far
-/// as the picture goes. Images of different height are aligned at the top.
+/// that a match that crosses the others stands out. A point that is inside of one image only, as those of a local map
+/// may be, gets a small magenta cross there. Images of different height are aligned at the top.
 Image<Rgb> draw_matches(ImageView<const float> left, ImageView<const float> right,
                         std::span<const PictureMatch> matches, const std::string& caption);
 

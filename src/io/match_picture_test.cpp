@@ -84,14 +84,26 @@ TEST(MatchPicture, TheCaptionIsBelowAndFits) {
   }
 }
 
-TEST(MatchPicture, PointsOutsideDoNoHarm) {
+TEST(MatchPicture, APointInOneImageOnlyIsACrossThere) {
+  const Image<Rgb> picture = draw({{{kWidth + 20, 30}, {50, 30}}, {{15, 20}, {30, -4}}});
+  for (const Eigen::Vector2i& centre : {Eigen::Vector2i(kWidth + 50, 30), Eigen::Vector2i(15, 20)}) {
+    const Rgb pixel = picture(centre.x(), centre.y());
+    EXPECT_GT(pixel[0], 200);
+    EXPECT_LT(pixel[1], 60);
+    EXPECT_GT(pixel[2], 200) << "magenta";
+    EXPECT_TRUE(is_grey(picture(centre.x() - 7, centre.y()))) << "no line leads away";
+    EXPECT_TRUE(is_grey(picture(centre.x() + 7, centre.y())));
+  }
+  EXPECT_TRUE(is_grey(picture(kWidth + 20, 30))) << "a column beyond the left image is none of the right one";
+}
+
+TEST(MatchPicture, PointsThatAreNowhereDoNoHarm) {
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<PictureMatch> matches{
       {{-20, 5}, {30, 1e30F}}, {{infinity, 0}, {std::numeric_limits<float>::quiet_NaN(), 3}}, {{20, 30}, {50, 30}}};
-  const Image<Rgb> picture = draw(matches, "x");
-  EXPECT_GT(colourfulness(picture(20, 26)), 100) << "the others are still drawn";
-  for (int x = 0; x < picture.width(); ++x) {
-    EXPECT_TRUE(is_grey(picture(x, kHeight))) << "lines stay above the caption";
+  const Image<Rgb> picture = draw(matches), without = draw({matches.back()});
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) ASSERT_EQ(picture(x, y), without(x, y)) << x << " " << y;
   }
 }
 
