@@ -53,7 +53,8 @@ struct SlamResult {
   std::vector<KeyframeUpdate> keyframes;
   /// Poses of `keyframes` after loop closing, as similarities, for their own units differ; empty without loops.
   std::vector<Sim3d> corrected;
-  std::vector<LoopRecord> loops;  ///< All pairs of keyframes that looked alike, accepted or refused.
+  std::vector<LoopRecord> loops;       ///< All pairs of keyframes that looked alike, accepted or refused.
+  double loop_bytes_per_keyframe = 0;  ///< What loop closing kept in memory for a keyframe, on average.
   PinholeIntrinsics camera;       ///< Of the rectified images, as estimated: the points' pixels are its own.
   /// Frames with which a map was there: that of the first map, then one a restart. Frames before them that waited for
   /// the map may have got their poses afterwards.
@@ -95,7 +96,8 @@ class Slam {
   FrameRecord process(ImageView<const std::uint16_t> image, double timestamp, std::optional<double> exposure_ms = {});
   FrameRecord process(ImageView<const float> image, double timestamp, std::optional<double> exposure_ms = {});
 
-  /// Pose of the newest frame as now estimated; none while it is not tracked.
+  /// Pose of the newest frame as now estimated; none while it is not tracked. Closed loops are taken account of a few
+  /// keyframes later, at fixed points of the sequence.
   std::optional<SE3d> T_world_camera() const;
 
   /// The camera of the rectified images that tracking works on.

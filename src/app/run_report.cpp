@@ -88,7 +88,8 @@ Json counts_json(const RunSummary& summary) {
           {"skipped_frames", result.skipped},
           {"loops_closed", std::count_if(result.loops.begin(), result.loops.end(),
                                          [](const LoopRecord& loop) { return loop.accepted; })},
-          {"loop_candidates", result.loops.size()}};
+          {"loop_candidates", result.loops.size()},
+          {"loop_bytes_per_keyframe", std::lround(result.loop_bytes_per_keyframe)}};
 }
 
 Json timing_json(const SequenceRun& run) {

@@ -25,7 +25,7 @@ OrbDescriptor with_flipped_bits(OrbDescriptor d, int count, int first = 0) {
 
 MapFeature feature_at(float u, float v, const OrbDescriptor& descriptor, float angle = 0, std::uint32_t node = 0) {
   MapFeature f;
-  f.feature = {u, v, angle, descriptor};
+  f.feature = {descriptor, u, v, angle};
   f.node = node;
   return f;
 }

@@ -1,6 +1,7 @@
 #include "mapping/keyframe_map.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
@@ -65,6 +66,12 @@ int KeyframeMap::add(const KeyframeUpdate& update, std::vector<MapFeature> featu
   return index;
 }
 
+void KeyframeMap::forget_depthless(int index) {
+  std::vector<MapFeature>& features = keyframes_[index].features;
+  std::erase_if(features, [](const MapFeature& feature) { return !(feature.idepth > 0); });
+  features.shrink_to_fit();
+}
+
 std::optional<int> KeyframeMap::find(std::int64_t frame_id) const {
   const auto it = index_of_.find(frame_id);
   if (it == index_of_.end()) return std::nullopt;
@@ -120,6 +127,18 @@ OdometryChain KeyframeMap::chain(int from, int to) const {
     at = it->second;
   }
   return chain;
+}
+
+std::optional<int> KeyframeMap::before(int index) const {
+  const auto it = index_of_.find(keyframes_[index].frame_id);
+  if (it == index_of_.begin()) return std::nullopt;
+  return std::prev(it)->second;
+}
+
+std::vector<int> KeyframeMap::in_time() const {
+  std::vector<int> indices;
+  for (const auto& [frame_id, index] : index_of_) indices.push_back(index);
+  return indices;
 }
 
 std::size_t KeyframeMap::memory_bytes(int index) const {

@@ -46,6 +46,9 @@ class KeyframeMap {
   /// frame id is there already.
   int add(const KeyframeUpdate& update, std::vector<MapFeature> features);
 
+  /// Forgets the features of keyframe `index` that have no depth: nothing can be learned from a match with them.
+  void forget_depthless(int index);
+
   int size() const { return static_cast<int>(keyframes_.size()); }
   const MapKeyframe& operator[](int index) const { return keyframes_[index]; }
   std::optional<int> find(std::int64_t frame_id) const;
@@ -56,6 +59,12 @@ class KeyframeMap {
 
   /// Along the keyframes in the order of time.
   OdometryChain chain(int from, int to) const;
+
+  /// The keyframe before it in time, of those that are here.
+  std::optional<int> before(int index) const;
+
+  /// Indices of all keyframes in the order of time.
+  std::vector<int> in_time() const;
 
   /// Bytes held for keyframe `index`.
   std::size_t memory_bytes(int index) const;

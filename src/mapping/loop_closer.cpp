@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "mapping/pinhole_projection.h"
+#include "mapping/chain_table.h"
 
 namespace ldso {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// Share of the windows' information that each of a keyframe's edges carries. Keyframes one to n steps apart are all
 /// linked: between two neighbours l of the edges of length l pass, and if the variance grows with the length they
 /// together hold a stretch as n (n + 1) / 2 chains of direct links would.
-double edge_share(std::size_t edges) {
+double edge_share(std::ptrdiff_t edges) {
   const auto n = static_cast<double>(edges);
   return 2 / (n * (n + 1));
 }
@@ -47,8 +47,9 @@ LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& c
 LoopCloser::LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings)
     : vocabulary_(std::move(vocabulary)),
       settings_(settings),
-      detector_(vocabulary_->word_count(), settings.detection),
-      odometry_graph_(settings.graph) {}
+      detector_(vocabulary_->word_count(), settings.detection) {
+  settings.graph.validate();
+}
 
 void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
                      const PinholeIntrinsics& camera) {
@@ -62,28 +63,28 @@ void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector
 
 void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera) {
   const int index = map_.add(update, std::move(features.features));
-  connect(index);
+  place(index);
   std::vector<LoopCandidate> candidates;
   {
     const StageTimer stage(times_, "loops/query");
     candidates = detector_.detect(map_, features.words);
   }
   // Places are seen again for a while: not every keyframe has to say so.
-  if (index < last_accepted_ + settings_.spacing) return;
-  const StageTimer stage(times_, "loops/verify");
-  for (const LoopCandidate& candidate : candidates) {
-    if (verify(index, candidate, camera)) break;
+  if (index >= last_accepted_ + settings_.spacing) {
+    const StageTimer stage(times_, "loops/verify");
+    for (const LoopCandidate& candidate : candidates) {
+      if (verify(index, candidate, camera)) break;
+    }
   }
+  map_.forget_depthless(index);
+  if (is_due(index)) optimize();
 }
 
-void LoopCloser::connect(int index) {
-  odometry_graph_.add_keyframe(index, Sim3d(map_[index].T_world_camera));
-  corrected_.emplace_back(map_[index].T_world_camera);
-  const std::vector<Neighbour>& neighbours = map_[index].neighbours;
-  for (const Neighbour& neighbour : neighbours) {
-    odometry_graph_.add_odometry_edge({index, neighbour.index, Sim3d(neighbour.T_this_other),
-                                       edge_share(neighbours.size()) * inverse_of(neighbour.covariance)});
-  }
+void LoopCloser::place(int index) {
+  const Sim3d odometry(map_[index].T_world_camera);
+  const std::optional<int> before = map_.before(index);
+  const Sim3d correction = before ? corrected_[*before] * Sim3d(map_[*before].T_world_camera).inverse() : Sim3d();
+  corrected_.push_back(correction * odometry);
 }
 
 bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera) {
@@ -124,9 +125,8 @@ std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDi
   return {};
 }
 
-LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis& newer) const {
-  const OdometryChain to_older = map_.chain(newer.current, older.current);
-  const OdometryChain to_newer = map_.chain(older.candidate, newer.candidate);
+LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis& newer, const OdometryChain& to_older,
+                                       const OdometryChain& to_newer) {
   const Sim3d S = to_older.S_from_to * older.S_current_candidate;
   const Matrix7d A = to_older.S_from_to.adjoint(), B = S.adjoint();
   LoopDiscrepancy d;
@@ -142,7 +142,9 @@ LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis
 bool LoopCloser::confirms(const Hypothesis& older, const Hypothesis& newer) const {
   const std::vector<int> around = map_.covisible(newer.candidate, 3);
   if (!std::binary_search(around.begin(), around.end(), older.candidate)) return false;
-  return discrepancy_chi2(difference(older, newer), variance_factors_) < settings_.confirmation_chi2;
+  const LoopDiscrepancy d =
+      difference(older, newer, map_.chain(newer.current, older.current), map_.chain(older.candidate, newer.candidate));
+  return discrepancy_chi2(d, variance_factors_) < settings_.confirmation_chi2;
 }
 
 bool LoopCloser::decide(Hypothesis hypothesis) {
@@ -173,30 +175,82 @@ void LoopCloser::accept(Hypothesis& hypothesis) {
   accepted_.push_back(hypothesis);
 }
 
-void LoopCloser::finish() {
-  if (!accepted_.empty()) optimize();
+bool LoopCloser::is_due(int index) const {
+  if (index < last_optimized_ + settings_.graph_spacing) return false;
+  for (std::size_t i = loops_in_graph_; i < accepted_.size(); ++i) {
+    const Hypothesis& loop = accepted_[i];
+    const Sim3d S_graph = corrected_[loop.current].inverse() * corrected_[loop.candidate];
+    const Sim3d::Tangent x = (loop.S_current_candidate * S_graph.inverse()).log();
+    const Matrix7d C = variance_factors_.loops * loop.covariance;
+    if (!(x.dot(C.ldlt().solve(x)) < settings_.graph_chi2)) return true;
+  }
+  return false;
 }
 
-void LoopCloser::optimize() {
-  const StageTimer timer(times_, "loops/optimize");
+void LoopCloser::finish() {
+  if (loops_in_graph_ < accepted_.size()) optimize();
+}
+
+VarianceFactors LoopCloser::learn_variances() const {
+  const ChainTable chains(map_);
   std::vector<LoopDiscrepancy> with_odometry, between;
   for (std::size_t i = 0; i < accepted_.size(); ++i) {
     const Hypothesis& loop = accepted_[i];
     with_odometry.push_back(
-        discrepancy(loop.S_current_candidate, loop.covariance, map_.chain(loop.current, loop.candidate)));
-    if (i > 0) between.push_back(difference(accepted_[i - 1], loop));
+        discrepancy(loop.S_current_candidate, loop.covariance, chains.between(loop.current, loop.candidate)));
+    if (i == 0) continue;
+    const Hypothesis& last = accepted_[i - 1];
+    between.push_back(difference(last, loop, chains.between(loop.current, last.current),
+                                 chains.between(last.candidate, loop.candidate)));
   }
-  variance_factors_ = estimate_variance_factors(with_odometry, between);
-  PoseGraph graph = odometry_graph_;
+  return estimate_variance_factors(with_odometry, between);
+}
+
+PoseGraph LoopCloser::build_graph() const {
+  PoseGraph graph(settings_.graph);
   graph.set_odometry_variance_factors(variance_factors_.odometry);
+  for (int i = 0; i < map_.size(); ++i) {
+    graph.add_keyframe(i, corrected_[i]);
+    const std::vector<Neighbour>& neighbours = map_[i].neighbours;
+    const auto earlier =
+        std::count_if(neighbours.begin(), neighbours.end(), [&](const auto& n) { return n.index < i; });
+    for (const Neighbour& neighbour : neighbours) {
+      if (neighbour.index > i) continue;
+      graph.add_odometry_edge(
+          {i, neighbour.index, Sim3d(neighbour.T_this_other), edge_share(earlier) * inverse_of(neighbour.covariance)});
+    }
+  }
   for (const Hypothesis& loop : accepted_) {
     graph.add_loop_edge({loop.current, loop.candidate, loop.S_current_candidate,
                          inverse_of(variance_factors_.loops * loop.covariance)});
   }
-  graph.optimize(map_.size() - 1);
-  for (std::size_t i = 0; i < accepted_.size(); ++i)
+  return graph;
+}
+
+void LoopCloser::optimize() {
+  const StageTimer timer(times_, "loops/optimize");
+  variance_factors_ = learn_variances();
+  PoseGraph graph = build_graph();
+  last_optimized_ = map_.size() - 1;
+  loops_in_graph_ = accepted_.size();
+  graph.optimize(last_optimized_);
+  for (std::size_t i = 0; i < accepted_.size(); ++i) {
     records_[accepted_[i].record].graph_weight = graph.loops()[i].weight;
+  }
   for (int i = 0; i < map_.size(); ++i) corrected_[i] = graph.S_world_keyframe(i);
+}
+
+Sim3d LoopCloser::correction() const {
+  if (map_.size() == 0) return Sim3d();
+  const int newest = map_.in_time().back();
+  return corrected_[newest] * Sim3d(map_[newest].T_world_camera).inverse();
+}
+
+double LoopCloser::bytes_per_keyframe() const {
+  if (map_.size() == 0) return 0;
+  auto bytes = static_cast<double>(detector_.memory_bytes() + corrected_.size() * sizeof(Sim3d));
+  for (int i = 0; i < map_.size(); ++i) bytes += static_cast<double>(map_.memory_bytes(i));
+  return bytes / map_.size();
 }
 
 std::vector<CorrectedPose> LoopCloser::poses() const {

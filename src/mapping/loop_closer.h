@@ -34,6 +34,8 @@ struct LoopCloserSettings {
   int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
   double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
   int spacing = 2;                   ///< Keyframes from one closed loop to the next, at least.
+  int graph_spacing = 20;            ///< Keyframes from one optimization of the graph to the next, at least.
+  double graph_chi2 = 50;            ///< Squared distance of a new loop from the poses that calls for one.
   int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
 };
 
@@ -54,8 +56,14 @@ class LoopCloser {
   /// The same with features that were built before.
   void add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera);
 
-  /// Takes all loops into account; the last keyframe stays where the odometry has it.
+  /// Takes all loops into account; the last keyframe stays where it is.
   void finish();
+
+  /// From the odometry's world to the corrected one, at the newest keyframe.
+  Sim3d correction() const;
+
+  /// What is kept for each keyframe, on average.
+  double bytes_per_keyframe() const;
 
   /// Of all keyframes, in the order in which they were added.
   std::vector<CorrectedPose> poses() const;
@@ -73,16 +81,22 @@ class LoopCloser {
     std::size_t record = 0;
     bool accepted = false;
   };
-  void connect(int index);
+  /// A first corrected pose: that of the keyframe before it, with the odometry's step.
+  void place(int index);
   /// Whether the candidate stands as the place of the keyframe, for now or for good.
   bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera);
   /// Why drift cannot explain it; empty if it can.
   std::string contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;
   /// Of what two hypotheses say of the newer one's similarity.
-  LoopDiscrepancy difference(const Hypothesis& older, const Hypothesis& newer) const;
+  static LoopDiscrepancy difference(const Hypothesis& older, const Hypothesis& newer, const OdometryChain& to_older,
+                                    const OdometryChain& to_newer);
   bool confirms(const Hypothesis& older, const Hypothesis& newer) const;
   bool decide(Hypothesis hypothesis);
   void accept(Hypothesis& hypothesis);
+  /// Whether the graph is so far from what the newest loops say that it should not wait for more of them.
+  bool is_due(int index) const;
+  VarianceFactors learn_variances() const;
+  PoseGraph build_graph() const;
   void optimize();
 
   std::shared_ptr<const Vocabulary> vocabulary_;
@@ -95,7 +109,9 @@ class LoopCloser {
   std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
   std::vector<LoopRecord> records_;
   VarianceFactors variance_factors_;
-  int last_accepted_ = -1000;  ///< Keyframe of the last closed loop.
+  int last_accepted_ = -1000;       ///< Keyframe of the last closed loop.
+  int last_optimized_ = -1000;      ///< Newest keyframe when the graph was optimized last.
+  std::size_t loops_in_graph_ = 0;  ///< Those that the corrected poses take account of.
   StageTimes times_;
 };
 

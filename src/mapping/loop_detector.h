@@ -37,6 +37,9 @@ class LoopDetector {
   /// place; best place first. The keyframe then enters the database, whatever came of it.
   std::vector<LoopCandidate> detect(const KeyframeMap& map, const BowVector& words);
 
+  /// Bytes held by the database.
+  std::size_t memory_bytes() const { return database_.memory_bytes(); }
+
  private:
   LoopDetectorSettings settings_;
   KeyframeDatabase database_;

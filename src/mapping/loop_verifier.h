@@ -15,8 +15,8 @@
 namespace ldso {
 
 struct LoopVerifierSettings {
-  int min_own_matches = 12;  ///< By descriptors, with the candidate itself, with or without depth.
-  int min_matches = 15;      ///< By descriptors alone.
+  int min_own_matches = 6;  ///< By descriptors, with the candidate itself.
+  int min_matches = 15;     ///< By descriptors alone.
   int min_pnp_inliers = 10;
   int min_inliers = 20;            ///< Of the similarity.
   int min_depth_inliers = 10;      ///< Of those, with depth on both sides.

@@ -37,9 +37,9 @@ TEST(DefaultVocabulary, TellsDescriptorsApart) {
   std::vector<Feature> features, same, others;
   for (int i = 0; i < 400; ++i) {
     const OrbDescriptor descriptor = place_test::random_descriptor(random);
-    features.push_back({0, 0, 0, descriptor});
-    same.push_back({0, 0, 0, place_test::flip_bits(descriptor, 8, random)});
-    others.push_back({0, 0, 0, place_test::random_descriptor(random)});
+    features.push_back({descriptor, 0, 0, 0});
+    same.push_back({place_test::flip_bits(descriptor, 8, random), 0, 0, 0});
+    others.push_back({place_test::random_descriptor(random), 0, 0, 0});
   }
   const BowVector vector = vocabulary.transform(features);
   EXPECT_GT(score(vector, vocabulary.transform(same)), 3 * score(vector, vocabulary.transform(others)));

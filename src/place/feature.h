@@ -30,9 +30,9 @@ inline int hamming_distance(const OrbDescriptor& a, const OrbDescriptor& b) {
 }
 
 struct Feature {
+  OrbDescriptor descriptor;
   float u = 0, v = 0;  ///< Pixel in the rectified image.
   float angle = 0;     ///< Orientation by the intensity centroid [rad], -pi..pi.
-  OrbDescriptor descriptor;
 };
 
 }  // namespace ldso

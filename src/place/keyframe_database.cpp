@@ -42,4 +42,10 @@ std::vector<PlaceCandidate> KeyframeDatabase::query(const BowVector& vector, std
   return candidates;
 }
 
+std::size_t KeyframeDatabase::memory_bytes() const {
+  std::size_t bytes = ids_.capacity() * sizeof(ids_[0]);
+  for (const std::vector<Posting>& postings : postings_) bytes += postings.capacity() * sizeof(Posting);
+  return bytes;
+}
+
 }  // namespace ldso

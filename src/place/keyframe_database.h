@@ -32,6 +32,7 @@ class KeyframeDatabase {
                                     const std::function<bool(std::int64_t)>& accept = {}) const;
 
   std::size_t size() const { return ids_.size(); }
+  std::size_t memory_bytes() const;
 
  private:
   struct Posting {

@@ -101,7 +101,7 @@ DescribedCorners describe(const Image<Texel>& image, std::span<const Eigen::Vect
   DescribedCorners described;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (!is_inside(corners[i], image.width(), image.height())) continue;
-    described.features.push_back({corners[i].x(), corners[i].y(), 0, {}});
+    described.features.push_back({{}, corners[i].x(), corners[i].y(), 0});
     described.corner_index.push_back(static_cast<int>(i));
   }
   if (described.features.empty()) return described;

@@ -41,7 +41,7 @@ inline std::vector<std::vector<OrbDescriptor>> made_up_images(int images, int pl
 
 inline std::vector<Feature> features_of(const std::vector<OrbDescriptor>& descriptors) {
   std::vector<Feature> features;
-  for (const OrbDescriptor& descriptor : descriptors) features.push_back({0, 0, 0, descriptor});
+  for (const OrbDescriptor& descriptor : descriptors) features.push_back({descriptor, 0, 0, 0});
   return features;
 }
 

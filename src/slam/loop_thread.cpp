@@ -11,6 +11,8 @@ namespace {
 
 /// Keyframes that may wait with their images.
 constexpr std::size_t kMostWaiting = 16;
+/// Age of the correction that is handed back, in keyframes: by then it is known without waiting.
+constexpr std::size_t kCorrectionLag = 8;
 
 }  // namespace
 
@@ -19,22 +21,54 @@ LoopThread::LoopThread(LogSink log) : log_(std::move(log)), queue_(kMostWaiting)
 LoopThread::~LoopThread() { queue_.close(); }
 
 void LoopThread::add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera) {
+  {
+    const std::lock_guard lock(mutex_);
+    ++added_;
+  }
   queue_.push({std::move(keyframe), camera});
 }
 
+void LoopThread::publish(const Sim3d& correction) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  corrections_.push_back(correction);
+  if (corrections_.size() > kCorrectionLag + kMostWaiting) corrections_.pop_front();
+  published_.notify_all();
+}
+
+Sim3d LoopThread::correction() {
+  std::unique_lock lock(mutex_);
+  if (added_ <= kCorrectionLag) return Sim3d();
+  const std::size_t wanted = added_ - kCorrectionLag;
+  published_.wait(lock, [&] { return done_ >= wanted || ended_; });
+  if (failed_ || done_ < wanted) return Sim3d();
+  const std::size_t back = done_ - wanted;
+  return back < corrections_.size() ? corrections_[corrections_.size() - 1 - back] : corrections_.front();
+}
+
+void LoopThread::process() {
+  closer_ = std::make_unique<LoopCloser>(std::make_shared<const Vocabulary>(default_vocabulary()));
+  while (std::optional<Item> item = queue_.pop()) {
+    const FinishedKeyframe& keyframe = item->keyframe;
+    closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);
+    publish(closer_->correction());
+  }
+  closer_->finish();
+}
+
 void LoopThread::work() {
+  bool failed = false;
   try {
-    closer_ = std::make_unique<LoopCloser>(std::make_shared<const Vocabulary>(default_vocabulary()));
-    while (std::optional<Item> item = queue_.pop()) {
-      const FinishedKeyframe& keyframe = item->keyframe;
-      closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);
-    }
-    closer_->finish();
+    process();
   } catch (const std::exception& error) {
-    failed_ = true;
+    failed = true;
     log_to(log_, LogLevel::kWarning, std::string("loop closing ends: ") + error.what());
     queue_.close();
   }
+  const std::lock_guard lock(mutex_);
+  failed_ = failed;
+  ended_ = true;
+  published_.notify_all();
 }
 
 const LoopCloser* LoopThread::finish() {

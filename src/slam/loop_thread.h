@@ -3,7 +3,11 @@
 // Loop closing beside the odometry, on a thread of its own: takes the keyframes in the order in which they left the
 // window, so that what comes out does not depend on time.
 
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -26,6 +30,10 @@ class LoopThread {
   /// Hands a keyframe over; waits only if many are queued already.
   void add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera);
 
+  /// From the odometry's world to the corrected one, as known a fixed number of keyframes ago: waits for that if need
+  /// be, so that the same run says the same. The identity as long as no loop is closed, or after a failure.
+  Sim3d correction();
+
   /// Waits until all keyframes are done and closes their loops. To be called once, after the last one. Nothing if loop
   /// closing failed (which the log has heard): the odometry stands on its own.
   const LoopCloser* finish();
@@ -36,11 +44,21 @@ class LoopThread {
     PinholeIntrinsics camera;
   };
   void work();
+  void process();
+  /// Makes the correction after a keyframe known.
+  void publish(const Sim3d& correction);
 
   LogSink log_;
   BoundedQueue<Item> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.
   bool failed_ = false;
+
+  std::mutex mutex_;
+  std::condition_variable published_;
+  std::deque<Sim3d> corrections_;  ///< After each of the last keyframes that are done.
+  std::size_t added_ = 0;          ///< Keyframes handed over.
+  std::size_t done_ = 0;           ///< Keyframes that loop closing is through with.
+  bool ended_ = false;             ///< Nothing will be published any more.
   std::jthread thread_;
 };
 

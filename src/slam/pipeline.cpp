@@ -56,6 +56,7 @@ void Pipeline::close_loops() {
   if (closer == nullptr) return;
   add_times(closer->times(), result_.stage_times);
   result_.loops = closer->loops();
+  result_.loop_bytes_per_keyframe = closer->bytes_per_keyframe();
   const bool any = std::any_of(result_.loops.begin(), result_.loops.end(), [](const auto& l) { return l.accepted; });
   if (!any) return;
   std::map<std::int64_t, Sim3d> poses;
@@ -107,7 +108,10 @@ std::optional<SE3d> Pipeline::T_world_camera() const {
   if (result_.frames.empty() || result_.frames.back().state != TrackingState::kTracked) return std::nullopt;
   const FrameRecord& frame = result_.frames.back();
   for (const auto& keyframe : odometry_.window().keyframes) {
-    if (keyframe->id() == frame.keyframe_id) return keyframe->state.T_c_w().inverse() * frame.T_keyframe_frame;
+    if (keyframe->id() != frame.keyframe_id) continue;
+    const SE3d T = keyframe->state.T_c_w().inverse() * frame.T_keyframe_frame;
+    const Sim3d S = loops_ ? loops_->correction() : Sim3d();
+    return SE3d(S.rotation() * T.rotation(), S * T.translation());
   }
   return std::nullopt;
 }

@@ -34,7 +34,8 @@ class Pipeline {
   /// A frame that cannot be used: recorded with its reason, the next one is tracked as if it had not been.
   const FrameRecord& skip(std::int64_t frame_id, double timestamp, const std::string& reason);
 
-  /// Pose of the newest frame, if it is tracked.
+  /// Pose of the newest frame, if it is tracked: the odometry's with the correction of the loops closed up to a fixed
+  /// number of keyframes ago.
   std::optional<SE3d> T_world_camera() const;
 
   int keyframes() const { return odometry_.keyframes(); }
