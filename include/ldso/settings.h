@@ -184,11 +184,27 @@ struct InitializerSettings {
 
 /// Loop closing [L III-C, III-D].
 struct LoopSettings {
-  bool enabled = true;  ///< Off: pure odometry.
+  bool enabled = true;             ///< Off: pure odometry.
+  std::string vocabulary;          ///< File (own format, DBoW2 text or DBoW3 binary); empty: the built-in one.
+  int max_candidates = 3;          ///< Places that are verified for a keyframe.
+  int spacing = 2;                 ///< Keyframes from one closed loop to the next, at least.
+  int min_inliers = 20;            ///< Common points of both places.
+  int min_depth_inliers = 10;      ///< Of those, with a depth on both sides: they carry the scale.
+  double min_seen_share = 0.25;    ///< Common points among those that should be seen.
+  double min_covered_cells = 0.3;  ///< Share of the image's cells with a common point.
+  double max_drift = 0.15;         ///< Largest distance of a loop from the odometry, as a share of the way between.
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
     visit("enabled", s.enabled);
+    visit("vocabulary", s.vocabulary);
+    visit("max_candidates", s.max_candidates);
+    visit("spacing", s.spacing);
+    visit("min_inliers", s.min_inliers);
+    visit("min_depth_inliers", s.min_depth_inliers);
+    visit("min_seen_share", s.min_seen_share);
+    visit("min_covered_cells", s.min_covered_cells);
+    visit("max_drift", s.max_drift);
   }
 };
 

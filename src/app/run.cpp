@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct RunArguments {
   fs::path sequence, out;
   DatasetOptions dataset;
-  std::optional<fs::path> config;
+  std::optional<fs::path> config, vocabulary;
   std::optional<int> threads;
   std::vector<std::string> set;
   bool kitti = false, quiet = false, no_loops = false, loop_pictures = false;
@@ -46,6 +46,8 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_option("--set", a.set, "One setting, e.g. selection.strategy=gradient; can be repeated")
       ->type_name("KEY=VALUE");
   command.add_option("--threads", a.threads, "Threads that work on a frame; the result does not depend on it");
+  command.add_option("--vocabulary", a.vocabulary, "Visual vocabulary for loop closing instead of the built-in one")
+      ->check(CLI::ExistingFile);
   CLI::Option* no_loops = command.add_flag("--no-loops", a.no_loops, "Odometry alone, without loop closing");
   command.add_flag("--loop-pictures", a.loop_pictures, "Also write a picture of each closed loop: loops/*.png")
       ->excludes(no_loops);
@@ -62,6 +64,7 @@ Settings read_all_settings(const RunArguments& a) {
     set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   if (a.threads) settings.threads = *a.threads;
+  if (a.vocabulary) settings.loops.vocabulary = a.vocabulary->string();
   if (a.no_loops) settings.loops.enabled = false;
   settings.validate();
   return settings;

@@ -72,6 +72,13 @@ const std::map<std::string, SettingRange, std::less<>>& ranges() {
       {"initializer.min_good", {0, 1}},
       {"initializer.min_tracked", {0, 1}},
       {"initializer.max_frames", {2, 1000000}},
+      {"loops.max_candidates", {1, 100}},
+      {"loops.spacing", {1, 1000000}},
+      {"loops.min_inliers", {7, 1000000}},
+      {"loops.min_depth_inliers", {3, 1000000}},
+      {"loops.min_seen_share", {0, 1}},
+      {"loops.min_covered_cells", {0, 1}},
+      {"loops.max_drift", {0, 1000000}},
   };
   return table;
 }
@@ -90,7 +97,7 @@ class RangeCheck {
 
   template <class Value>
   void operator()(const char* name, const Value& value) const {
-    if constexpr (std::same_as<Value, bool> || std::is_enum_v<Value>) {
+    if constexpr (std::same_as<Value, bool> || std::is_enum_v<Value> || std::same_as<Value, std::string>) {
       return;
     } else if constexpr (std::is_arithmetic_v<Value>) {
       check(prefix_ + name, static_cast<double>(value));

@@ -30,7 +30,7 @@ struct ForNumbers {
 
   template <class Value>
   void operator()(const char* name, Value& value) const {
-    if constexpr (std::is_same_v<Value, bool> || std::is_enum_v<Value>) {
+    if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, std::string> || std::is_enum_v<Value>) {
       return;
     } else if constexpr (std::is_arithmetic_v<Value>) {
       act(prefix + name, value);

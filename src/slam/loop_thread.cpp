@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "place/default_vocabulary.h"
+#include "place/vocabulary_file.h"
 #include "util/log.h"
 
 namespace ldso {
@@ -14,9 +15,31 @@ constexpr std::size_t kMostWaiting = 16;
 /// Age of the correction that is handed back, in keyframes: by then it is known without waiting.
 constexpr std::size_t kCorrectionLag = 8;
 
+LoopCloserSettings closer_settings(const LoopSettings& settings) {
+  LoopCloserSettings result;
+  result.detection.max_candidates = settings.max_candidates;
+  result.spacing = settings.spacing;
+  result.verification.min_inliers = settings.min_inliers;
+  result.verification.min_depth_inliers = settings.min_depth_inliers;
+  result.verification.min_seen_share = settings.min_seen_share;
+  result.verification.min_covered_cells = settings.min_covered_cells;
+  result.max_drift = settings.max_drift;
+  return result;
+}
+
+std::shared_ptr<const Vocabulary> read_given(const LoopSettings& settings) {
+  if (settings.vocabulary.empty()) return nullptr;
+  return std::make_shared<const Vocabulary>(read_vocabulary(settings.vocabulary));
+}
+
 }  // namespace
 
-LoopThread::LoopThread(LogSink log) : log_(std::move(log)), queue_(kMostWaiting), thread_([this] { work(); }) {}
+LoopThread::LoopThread(const LoopSettings& settings, LogSink log)
+    : log_(std::move(log)),
+      settings_(closer_settings(settings)),
+      vocabulary_(read_given(settings)),
+      queue_(kMostWaiting),
+      thread_([this] { work(); }) {}
 
 LoopThread::~LoopThread() { queue_.close(); }
 
@@ -47,7 +70,8 @@ Sim3d LoopThread::correction() {
 }
 
 void LoopThread::process() {
-  closer_ = std::make_unique<LoopCloser>(std::make_shared<const Vocabulary>(default_vocabulary()));
+  if (!vocabulary_) vocabulary_ = std::make_shared<const Vocabulary>(default_vocabulary());
+  closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
   while (std::optional<Item> item = queue_.pop()) {
     const FinishedKeyframe& keyframe = item->keyframe;
     closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "ldso/log.h"
+#include "ldso/settings.h"
 #include "mapping/loop_closer.h"
 #include "odometry/window/finished_keyframe.h"
 #include "util/bounded_queue.h"
@@ -22,7 +23,8 @@ namespace ldso {
 
 class LoopThread {
  public:
-  explicit LoopThread(LogSink log);
+  /// Throws Error if `settings.vocabulary` names a file that cannot be read.
+  LoopThread(const LoopSettings& settings, LogSink log);
   ~LoopThread();
   LoopThread(const LoopThread&) = delete;
   LoopThread& operator=(const LoopThread&) = delete;
@@ -49,6 +51,8 @@ class LoopThread {
   void publish(const Sim3d& correction);
 
   LogSink log_;
+  LoopCloserSettings settings_;
+  std::shared_ptr<const Vocabulary> vocabulary_;  ///< None: the built-in one.
   BoundedQueue<Item> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.
   bool failed_ = false;

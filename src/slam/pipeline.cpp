@@ -28,7 +28,7 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
       pool_(settings.threads),
       odometry_(preprocessor_.output_camera(), preprocessor_.photometrically_calibrated(), settings, pool_) {
   result_.camera = preprocessor_.output_camera();
-  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(log_);
+  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_);
 }
 
 const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame) {
