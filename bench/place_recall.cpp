@@ -3,8 +3,10 @@
 //
 //   place_recall SEQUENCE [--vocabulary FILE]... [--picture curve.svg] [options; --help lists them]
 //
-// A pair is true if the cameras were near each other and looked the same way, false if they were far apart or looked
-// elsewhere; pairs in between count as neither, as do pairs that are near in time.
+// A pair is true if, by the true poses, both saw much of the same from about the same side: the overlap of their views
+// (view_overlap.h) at the depth that most corners have, which true poses and matches with the next view tell. It is
+// false if they saw nothing of the same or looked another way; pairs in between count as neither, as do pairs that are
+// near in time.
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
@@ -13,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@
 #include "place/default_vocabulary.h"
 #include "place/orb_descriptor.h"
 #include "place/vocabulary_file.h"
+#include "view_overlap.h"
 
 namespace ldso {
 namespace {
@@ -36,13 +40,22 @@ struct Options {
   std::vector<fs::path> vocabularies;
   fs::path picture;
   int stride = 10, gap = 100, features = 500;
-  double true_distance = 0.3, true_angle = 20, false_distance = 1.5, false_angle = 60;
+  double true_overlap = 0.4, true_angle = 30, false_overlap = 0.05, false_angle = 90;
+  double max_time_difference = 0.03;
+  std::optional<double> depth;
 };
 
 struct View {
   int frame = 0;
   SE3d T_world_camera;
   std::vector<Feature> features;
+  double depth = 0;  ///< Typical one [m].
+};
+
+struct Sequence {
+  std::vector<View> views;
+  PinholeIntrinsics camera;
+  double depth = 0;  ///< Median of the views'.
 };
 
 struct Pair {
@@ -66,7 +79,27 @@ std::vector<Feature> describe_frame(const ImagePyramid& pyramid, int features) {
   return describe(pyramid.levels[0], corners).features;
 }
 
-std::vector<View> read_views(const Options& options) {
+/// Fills in the depths of all views.
+void find_depths(const Options& options, Sequence& sequence) {
+  std::vector<View>& views = sequence.views;
+  std::vector<double> known;
+  for (std::size_t i = 0; i < views.size() && !options.depth; ++i) {
+    const View& other = views[i + 1 < views.size() ? i + 1 : i - 1];
+    const SE3d T_other_view = other.T_world_camera.inverse() * views[i].T_world_camera;
+    const auto depth = median_depth(views[i].features, other.features, T_other_view, sequence.camera);
+    if (!depth) continue;
+    views[i].depth = *depth;
+    known.push_back(*depth);
+  }
+  if (known.empty() && !options.depth) {
+    throw Error(options.sequence.string(), "consecutive views show no depth", "give a shorter --stride, or --depth");
+  }
+  std::sort(known.begin(), known.end());
+  sequence.depth = options.depth ? *options.depth : known[known.size() / 2];
+  for (View& view : views) view.depth = view.depth > 0 ? view.depth : sequence.depth;
+}
+
+Sequence read_sequence(const Options& options) {
   DatasetOptions dataset_options;
   dataset_options.stride = options.stride;
   const auto dataset = open_dataset(options.sequence, dataset_options);
@@ -75,28 +108,32 @@ std::vector<View> read_views(const Options& options) {
   Trajectory times;
   for (int i = 0; i < dataset->size(); ++i) times.push_back({dataset->timestamp(i), SE3d()});
   const FramePreprocessor preprocessor(dataset->calibration(), {});
-  std::vector<View> views;
-  for (const PosePair& pair : associate_by_time(times, *truth, 0.03)) {
+  Sequence sequence;
+  sequence.camera = preprocessor.output_camera();
+  for (const PosePair& pair : associate_by_time(times, *truth, options.max_time_difference)) {
     const int i = static_cast<int>(pair.estimate);
     const PreparedFrame frame = preprocessor.process(dataset->read(i));
-    views.push_back(
+    sequence.views.push_back(
         {i * options.stride, (*truth)[pair.truth].T_world_camera, describe_frame(frame.pyramid, options.features)});
   }
-  return views;
+  if (sequence.views.size() < 2) throw Error(options.sequence.string(), "has too few poses", "give a shorter --stride");
+  find_depths(options, sequence);
+  return sequence;
 }
 
 enum class Relation { kSame, kOther, kUnclear };
 
-Relation relation(const View& a, const View& b, const Options& options) {
-  const double distance = (a.T_world_camera.translation() - b.T_world_camera.translation()).norm();
-  const double angle =
-      (a.T_world_camera.rotation().inverse() * b.T_world_camera.rotation()).log().norm() * 180 / std::numbers::pi;
-  if (distance < options.true_distance && angle < options.true_angle) return Relation::kSame;
-  if (distance > options.false_distance || angle > options.false_angle) return Relation::kOther;
+Relation relation(const View& a, const View& b, const PinholeIntrinsics& camera, const Options& options) {
+  const SE3d T_b_a = b.T_world_camera.inverse() * a.T_world_camera;
+  const double angle = T_b_a.rotation().log().norm() * 180 / std::numbers::pi;
+  const double of_a = overlap(T_b_a, a.depth, camera), of_b = overlap(T_b_a.inverse(), b.depth, camera);
+  if (std::min(of_a, of_b) >= options.true_overlap && angle <= options.true_angle) return Relation::kSame;
+  if (std::max(of_a, of_b) <= options.false_overlap || angle >= options.false_angle) return Relation::kOther;
   return Relation::kUnclear;
 }
 
-Result compare_all(const std::vector<View>& views, const Vocabulary& vocabulary, const Options& options) {
+Result compare_all(const Sequence& sequence, const Vocabulary& vocabulary, const Options& options) {
+  const std::vector<View>& views = sequence.views;
   std::vector<BowVector> vectors;
   for (const View& view : views) vectors.push_back(vocabulary.transform(view.features));
   Result result;
@@ -106,7 +143,7 @@ Result compare_all(const std::vector<View>& views, const Vocabulary& vocabulary,
     bool was_here = false;
     for (std::size_t j = 0; j < i && views[j].frame + options.gap < views[i].frame; ++j) {
       const float s = score(vectors[i], vectors[j]);
-      const Relation r = relation(views[i], views[j], options);
+      const Relation r = relation(views[i], views[j], sequence.camera, options);
       was_here = was_here || r == Relation::kSame;
       if (r != Relation::kUnclear) result.pairs.push_back({s, r == Relation::kSame});
       if (s <= best) continue;
@@ -197,12 +234,12 @@ void draw(const fs::path& path, const std::vector<Polyline>& curves, const std::
 }
 
 void run(const Options& options) {
-  const std::vector<View> views = read_views(options);
-  std::printf("%zu views\n", views.size());
+  const Sequence sequence = read_sequence(options);
+  std::printf("%zu views, median depth %.3g m\n", sequence.views.size(), sequence.depth);
   std::vector<Polyline> curves;
   std::vector<std::string> names;
   const auto add = [&](const std::string& name, const Vocabulary& vocabulary) {
-    const Result result = compare_all(views, vocabulary, options);
+    const Result result = compare_all(sequence, vocabulary, options);
     curves.push_back(curve(result));
     names.push_back(name);
     print(name, result, curves.back());
@@ -224,12 +261,17 @@ int main(int argc, char** argv) {
   app.add_option("--stride", options.stride, "Use every n-th frame")->capture_default_str();
   app.add_option("--gap", options.gap, "Pairs nearer in time than so many frames do not count")->capture_default_str();
   app.add_option("--features", options.features, "Corners of a frame, at most")->capture_default_str();
-  app.add_option("--true-distance", options.true_distance, "A true pair is nearer than this [m]")
+  app.add_option("--depth", options.depth, "Typical depth [m] (default: of each view, by triangulation)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--true-overlap", options.true_overlap, "The views of a true pair overlap by this share at least")
       ->capture_default_str();
-  app.add_option("--true-angle", options.true_angle, "... and turned by less than this [deg]")->capture_default_str();
-  app.add_option("--false-distance", options.false_distance, "A false pair is farther apart than this [m]")
+  app.add_option("--true-angle", options.true_angle, "... and are turned by at most this [deg]")->capture_default_str();
+  app.add_option("--false-overlap", options.false_overlap, "The views of a false pair overlap by this at most")
       ->capture_default_str();
-  app.add_option("--false-angle", options.false_angle, "... or turned by more than this [deg]")->capture_default_str();
+  app.add_option("--false-angle", options.false_angle, "... or are turned by at least this [deg]")
+      ->capture_default_str();
+  app.add_option("--max-diff", options.max_time_difference, "Largest time difference of frame and ground truth [s]")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     ldso::run(options);
