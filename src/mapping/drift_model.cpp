@@ -44,7 +44,8 @@ void improve_odometry(std::span<const LoopDiscrepancy> discrepancies, VarianceFa
     }
   }
   for (int k = 0; k < 3; ++k) {
-    if (!(expected[k] > 0) || !std::isfinite(shown[k])) continue;
+    // Below zero: the covariances are none.
+    if (!(expected[k] > 0) || !(shown[k] >= 0) || !std::isfinite(shown[k])) continue;
     factors.odometry[k] = std::clamp(factors.odometry[k] * std::sqrt(shown[k] / expected[k]), 1.0, kMostFactor);
   }
 }

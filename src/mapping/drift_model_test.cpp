@@ -190,5 +190,21 @@ TEST(DriftModelTest, WhatIsNotFiniteDoesNotCount) {
   EXPECT_EQ(none.loops, 1);
 }
 
+TEST(DriftModelTest, CovariancesThatAreNoneStillGiveFactors) {
+  for (const double sign : {-1.0, 0.0, 1e300}) {
+    auto with_odometry = Discrepancies({}, 14).draw_many(20, 50), between = Discrepancies({}, 15).draw_many(20, 2);
+    for (auto* list : {&with_odometry, &between}) {
+      for (LoopDiscrepancy& d : *list) {
+        for (Matrix7d& C : d.odometry_covariance) C *= sign;
+      }
+    }
+    const VarianceFactors found = estimate_variance_factors(with_odometry, between);
+    for (const double factor : {found.odometry[0], found.odometry[1], found.odometry[2], found.loops}) {
+      EXPECT_GE(factor, 1) << sign;
+      EXPECT_TRUE(std::isfinite(factor)) << sign;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ldso
