@@ -44,6 +44,10 @@ void add_scene_options(CLI::App& command, SimulateArguments& a) {
   command.add_option("--speed", a.recipe.speed, "Speed on streets [m/s]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command
+      .add_option("--models", a.recipe.models,
+                  "Streets: houses, cars and signs repeat, so many models of each (0: all differ)")
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--trajectory", a.trajectory, "Build streets along these camera poses (TUM or KITTI format)")
       ->check(CLI::ExistingFile);
   command.add_option("--times", a.times, "Times of KITTI poses [s], one a line (default: number / fps)")

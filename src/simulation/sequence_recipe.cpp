@@ -101,6 +101,7 @@ void check(const SequenceRecipe& recipe) {
   demand(recipe.fps >= 0, "the frame rate is negative", "give --fps above 0");
   demand(recipe.scale > 0 && recipe.scale <= 10, "the scale is out of range", "give --scale within 0..10");
   demand(recipe.speed > 0, "the speed is not positive", "give --speed above 0");
+  demand(recipe.models >= 0, "the number of models is negative", "give --models 0 or more");
   demand(recipe.texel_scale > 0, "the texel scale is not positive", "give a value above 0");
   demand(recipe.sensor.exposure_ms > 0, "the exposure time is not positive", "give --exposure above 0");
   demand(recipe.sensor.rolling_shutter_ms >= 0, "the readout time is negative", "give --rolling-shutter 0 or more");
@@ -114,6 +115,7 @@ World make_world(const SequenceRecipe& recipe, const Trajectory& trajectory, Thr
     options.texel_scale = recipe.texel_scale;
     options.size_scale = recipe.scale;
     options.speed = recipe.speed;
+    options.models = recipe.models;
     options.figure_of_eight = recipe.world == "eight";
     return trajectory.empty() ? make_street_world(options, pool) : make_street_world_along(trajectory, options, pool);
   }

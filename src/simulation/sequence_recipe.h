@@ -20,6 +20,7 @@ struct SequenceRecipe {
   double fps = 0;             ///< 0: as is usual for the world.
   double scale = 1;           ///< Streets: size of the circuit. Indoors: part of the way that is walked.
   double speed = 10;          ///< Streets: [m/s].
+  int models = 0;             ///< Streets: houses, cars and signs come in so many models each; 0: all differ.
   double texel_scale = 1;     ///< > 1: coarser textures, made faster (tests).
   std::string lens;           ///< pinhole, radtan, fov, kannala-brandt; empty: as is usual for the world.
   std::optional<std::filesystem::path> camera;      ///< camera.txt that is used instead.

@@ -132,6 +132,7 @@ void write_description(const fs::path& path, const SimulatedSequence& sequence, 
   entry(out, "fps", sequence.options().fps);
   entry(out, "scale", recipe.scale);
   entry(out, "speed", recipe.speed);
+  entry(out, "models", recipe.models);
   entry(out, "texel_scale", recipe.texel_scale);
   if (recipe.trajectory) entry(out, "trajectory", recipe.trajectory->filename().string());
   entry(out, "depth_unit_m", depth_unit(recipe));

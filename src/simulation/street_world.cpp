@@ -105,6 +105,27 @@ class Town {
     return std::none_of(plots_.begin(), plots_.end(), [&](const Plot& other) { return plot.overlaps(other, gap); });
   }
 
+  /// While it lives, what is built is one of a few models (StreetOptions::models): the same draws, the same thing.
+  class ModelScope {
+   public:
+    ModelScope(Random& random, const StreetOptions& options, std::uint64_t kind) : random_(random), saved_(random) {
+      is_model_ = options.models > 0;
+      if (!is_model_) return;
+      const auto model = static_cast<std::uint64_t>(saved_.index(options.models));
+      random_ = Random(hash_of(options.seed, kind), model);
+    }
+    ~ModelScope() {
+      if (is_model_) random_ = saved_;
+    }
+    ModelScope(const ModelScope&) = delete;
+    ModelScope& operator=(const ModelScope&) = delete;
+
+   private:
+    Random& random_;
+    Random saved_;
+    bool is_model_ = false;
+  };
+
   void row_of_houses(int side) {
     double s = 2;
     while (s < length() - 4) {
@@ -123,6 +144,7 @@ class Town {
 
   /// Tries smaller and smaller houses at arc length `s`; returns the frontage used.
   std::optional<double> place_house(double s, int side) {
+    const ModelScope model(random_, options_, 1);
     double width = random_.uniform(8, 15), depth = random_.uniform(8, 12);
     const double setback = random_.uniform(kPavementEdge + 0.1, kPavementEdge + (random_.chance(0.3) ? 4.0 : 1.2));
     for (int attempt = 0; attempt < 3; ++attempt, width *= 0.75, depth *= 0.75) {
@@ -261,6 +283,7 @@ class Town {
   }
 
   void car(double s, int side) {
+    const ModelScope model(random_, options_, 2);
     const RoadPoint& p = point_at(s);
     const double length = random_.uniform(3.6, 4.8), width = 1.75;
     const Plot plot{beside(p, side * (kCarriagewayHalfWidth - 1.15)),
@@ -378,6 +401,7 @@ class Town {
   }
 
   void sign(double s, int side) {
+    const ModelScope model(random_, options_, 3);
     const RoadPoint& p = point_at(s);
     const Plot plot{beside(p, side * (kCarriagewayHalfWidth + 0.5)), {0.1, 0.4}, p.heading};
     if (!take(plot, kCarriagewayHalfWidth + 0.05, 0.1)) return;

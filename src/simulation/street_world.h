@@ -18,6 +18,9 @@ struct StreetOptions {
   bool figure_of_eight = false;
   double speed = 10;            ///< [m/s]
   double camera_height = 1.65;  ///< [m]
+  /// Houses, cars and signs come in so many models each, again and again: a trap for place recognition. 0: every one is
+  /// its own.
+  int models = 0;
 };
 
 /// A block of streets, 600 to 750 m round, or a figure of eight of about 1000 m; both drive over their start.
