@@ -218,17 +218,17 @@ void print(const std::string& name, const Result& result, const Polyline& points
 
 void draw(const fs::path& path, const std::vector<Polyline>& curves, const std::vector<std::string>& names) {
   const std::vector<std::string> colours{"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#8c564b"};
-  SvgChart chart({60, 20, 520, 400}, {0, 1}, {0, 1.02});
+  SvgChart chart({80, 20, 520, 400}, {0, 1}, {0, 1.02});
   chart.add_axes("recall", "precision");
   std::string labels;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::string& colour = colours[i % colours.size()];
     chart.add_line(curves[i], {.colour = colour, .dash = {}});
-    labels += svg_text(75, 400 - 16 * static_cast<double>(i), names[i], 12, "start", "fill=\"" + colour + "\"");
+    labels += svg_text(95, 400 - 16 * static_cast<double>(i), names[i], 12, "start", "fill=\"" + colour + "\"");
   }
   std::ofstream file(path, std::ios::binary);
-  file << R"(<svg xmlns="http://www.w3.org/2000/svg" width="620" height="480" font-family="sans-serif">)"
-       << R"(<rect width="620" height="480" fill="white"/>)" << chart.svg() << labels << "</svg>\n";
+  file << R"(<svg xmlns="http://www.w3.org/2000/svg" width="630" height="480" font-family="sans-serif">)"
+       << R"(<rect width="630" height="480" fill="white"/>)" << chart.svg() << labels << "</svg>\n";
   file.close();
   if (!file) throw Error(path.string(), "cannot be written", "check that the folder exists");
 }
