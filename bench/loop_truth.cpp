@@ -110,7 +110,12 @@ std::unique_ptr<Dataset> open_as_played(const fs::path& sequence, const Json& pl
   if (!played.at("end").is_null()) options.end = played.at("end").get<int>();
   options.stride = played.at("stride");
   options.reverse = played.at("reverse");
-  return open_dataset(sequence, options);
+  auto dataset = open_dataset(sequence, options);
+  if (dataset->size() != played.at("frames")) {
+    throw Error(sequence.string(), "is not the sequence of the run: it has another number of frames",
+                "the run was on " + played.at("path").get<std::string>());
+  }
+  return dataset;
 }
 
 /// A run with the ground truth of its frames.
