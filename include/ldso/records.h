@@ -71,6 +71,7 @@ struct LoopRecord {
   int points_in_view = 0;         ///< Points of the candidate that should be seen.
   int points_seen = 0;            ///< Of those, found.
   int inliers = 0;                ///< Points of the candidate's local map found where the similarity says.
+  int inliers_with_depth = 0;     ///< Of those, with a depth on both sides.
   int depth_inliers = 0;          ///< Of those, with a depth in the later keyframe that fits.
   double covered_cells = 0;       ///< Share of the image's cells with inliers.
   Sim3d S_keyframe_candidate;     ///< Maps points of the candidate to the keyframe; the identity if it got not so far.

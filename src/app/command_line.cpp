@@ -44,7 +44,7 @@ const CLI::App& chosen_command(const CLI::App& app) {
 std::string see_help(const CLI::App& command) {
   std::string names;
   for (const CLI::App* app = &command; app->get_parent() != nullptr; app = app->get_parent())
-    names = app->get_name() + " " + names;
+    names.insert(0, app->get_name() + " ");
   return "; see ldso " + names + "--help";
 }
 
@@ -57,7 +57,7 @@ std::string describe_extras(const CLI::App& app) {
            nearest_name(without_value(argument), option_names(command)) + "?" + help;
   }
   std::string arguments;
-  for (const std::string& argument : app.remaining(true)) arguments += " " + argument;
+  for (const std::string& argument : app.remaining(true)) arguments.append(" ").append(argument);
   return "too many arguments:" + arguments + help;
 }
 

@@ -23,6 +23,7 @@ Json loop_json(const LoopRecord& loop) {
   json["points_in_view"] = loop.points_in_view;
   json["points_seen"] = loop.points_seen;
   json["inliers"] = loop.inliers;
+  json["inliers_with_depth"] = loop.inliers_with_depth;
   json["depth_inliers"] = loop.depth_inliers;
   json["covered_cells"] = loop.covered_cells;
   if (loop.inliers > 0) json["S_keyframe_candidate"] = similarity_json(loop.S_keyframe_candidate);

@@ -33,6 +33,7 @@ LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& c
   record.points_in_view = v.num_visible;
   record.points_seen = v.num_seen;
   record.inliers = v.sim3.num_inliers;
+  record.inliers_with_depth = v.num_with_depth;
   record.depth_inliers = v.sim3.num_depth_inliers;
   record.covered_cells = v.covered_cells;
   record.S_keyframe_candidate = v.sim3.S_current_candidate;
@@ -83,8 +84,12 @@ void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, co
 void LoopCloser::place(int index) {
   const Sim3d odometry(map_[index].T_world_camera);
   const std::optional<int> before = map_.before(index);
-  const Sim3d correction = before ? corrected_[*before] * Sim3d(map_[*before].T_world_camera).inverse() : Sim3d();
-  corrected_.push_back(correction * odometry);
+  // Not before the graph was optimized: without loops the poses are those of the odometry to the last bit.
+  if (!before || loops_in_graph_ == 0) {
+    corrected_.push_back(odometry);
+    return;
+  }
+  corrected_.push_back(corrected_[*before] * Sim3d(map_[*before].T_world_camera).inverse() * odometry);
 }
 
 bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera) {
@@ -206,7 +211,7 @@ VarianceFactors LoopCloser::learn_variances() const {
   return estimate_variance_factors(with_odometry, between);
 }
 
-PoseGraph LoopCloser::build_graph() const {
+PoseGraph LoopCloser::build_odometry_graph() const {
   PoseGraph graph(settings_.graph);
   graph.set_odometry_variance_factors(variance_factors_.odometry);
   for (int i = 0; i < map_.size(); ++i) {
@@ -220,22 +225,24 @@ PoseGraph LoopCloser::build_graph() const {
           {i, neighbour.index, Sim3d(neighbour.T_this_other), edge_share(earlier) * inverse_of(neighbour.covariance)});
     }
   }
-  for (const Hypothesis& loop : accepted_) {
-    graph.add_loop_edge({loop.current, loop.candidate, loop.S_current_candidate,
-                         inverse_of(variance_factors_.loops * loop.covariance)});
-  }
   return graph;
 }
 
 void LoopCloser::optimize() {
   const StageTimer timer(times_, "loops/optimize");
   variance_factors_ = learn_variances();
-  PoseGraph graph = build_graph();
+  PoseGraph graph = build_odometry_graph();
+  std::vector<std::size_t> record_of_loop;
+  for (const Hypothesis& loop : accepted_) {
+    const Matrix7d information = inverse_of(variance_factors_.loops * loop.covariance);
+    const bool usable = graph.add_loop_edge({loop.current, loop.candidate, loop.S_current_candidate, information});
+    if (usable) record_of_loop.push_back(loop.record);
+  }
   last_optimized_ = map_.size() - 1;
   loops_in_graph_ = accepted_.size();
   graph.optimize(last_optimized_);
-  for (std::size_t i = 0; i < accepted_.size(); ++i) {
-    records_[accepted_[i].record].graph_weight = graph.loops()[i].weight;
+  for (std::size_t i = 0; i < record_of_loop.size(); ++i) {
+    records_[record_of_loop[i]].graph_weight = graph.loops()[i].weight;
   }
   for (int i = 0; i < map_.size(); ++i) corrected_[i] = graph.S_world_keyframe(i);
 }

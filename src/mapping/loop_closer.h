@@ -96,7 +96,7 @@ class LoopCloser {
   /// Whether the graph is so far from what the newest loops say that it should not wait for more of them.
   bool is_due(int index) const;
   VarianceFactors learn_variances() const;
-  PoseGraph build_graph() const;
+  PoseGraph build_odometry_graph() const;
   void optimize();
 
   std::shared_ptr<const Vocabulary> vocabulary_;

@@ -184,7 +184,11 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
     correspondences.push_back(correspondence(scene, point.point, m.b));
   }
   result.sim3 = estimate_sim3(correspondences, scene.camera, S, scene.settings.sim3);
-  for (std::size_t i = 0; i < result.matches.size(); ++i) result.matches[i].inlier = result.sim3.is_inlier[i];
+  result.num_with_depth = 0;
+  for (std::size_t i = 0; i < result.matches.size(); ++i) {
+    result.matches[i].inlier = result.sim3.is_inlier[i];
+    result.num_with_depth += result.sim3.is_inlier[i] && correspondences[i].idepth > 0;
+  }
   return result.sim3.status == Sim3Status::kOk;
 }
 
@@ -220,6 +224,10 @@ std::string doubt(const Scene& scene, LoopVerification& result) {
   if (sim3.num_inliers < s.min_inliers) return refusal("inliers", sim3.num_inliers, "at least", s.min_inliers);
   if (!sim3.scale_determined || sim3.num_depth_inliers < s.min_depth_inliers) {
     return refusal("inliers with depth on both sides", sim3.num_depth_inliers, "at least", s.min_depth_inliers);
+  }
+  const double depth_share = static_cast<double>(sim3.num_depth_inliers) / std::max(1, result.num_with_depth);
+  if (depth_share < s.min_depth_share) {
+    return refusal("share of the depths that fit", depth_share, "at least", s.min_depth_share);
   }
   std::vector<Eigen::Vector2d> pixels;
   for (const LoopMatch& match : result.matches) {

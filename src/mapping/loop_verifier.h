@@ -20,6 +20,7 @@ struct LoopVerifierSettings {
   int min_pnp_inliers = 10;
   int min_inliers = 20;            ///< Of the similarity.
   int min_depth_inliers = 10;      ///< Of those, with depth on both sides.
+  double min_depth_share = 0.3;    ///< Depths that fit, of the inliers' that have one on both sides.
   double min_covered_cells = 0.3;  ///< Share of a coarse grid's cells with an inlier.
   double min_minor_stddev = 0.04;  ///< Spread of the inliers across their main direction, of the image's width.
   double min_seen_share = 0.25;    ///< Inliers among the points of the local map that should be in view.
@@ -49,8 +50,9 @@ struct LoopVerification {
   std::string reason;  ///< Why not.
   int num_descriptor_matches = 0;
   int num_pnp_inliers = 0;
-  int num_visible = 0;  ///< Own points of the candidate that should be in view.
-  int num_seen = 0;     ///< Those of them where a corner was found.
+  int num_visible = 0;     ///< Own points of the candidate that should be in view.
+  int num_with_depth = 0;  ///< Inliers that have a depth on both sides, whether it fits or not.
+  int num_seen = 0;        ///< Those of them where a corner was found.
   double covered_cells = 0;
   std::vector<LoopMatch> matches;
   Sim3Estimate sim3;  ///< S_current_candidate.

@@ -374,5 +374,16 @@ TEST(LoopVerifierTest, TheSameTwice) {
   }
 }
 
+TEST(LoopVerifierTest, DepthsThatContradictEachOther) {
+  Scene scene;
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<float> idepth(0.01f, 2);
+  for (MapFeature& feature : scene.features[Scene::kCurrent]) {
+    feature.idepth = idepth(random);
+    feature.idepth_stddev = 0.01f * feature.idepth;
+  }
+  expect_refused(scene.verify());
+}
+
 }  // namespace
 }  // namespace ldso

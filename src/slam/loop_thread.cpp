@@ -64,7 +64,7 @@ Sim3d LoopThread::correction() {
   if (added_ <= kCorrectionLag) return Sim3d();
   const std::size_t wanted = added_ - kCorrectionLag;
   published_.wait(lock, [&] { return done_ >= wanted || ended_; });
-  if (failed_ || done_ < wanted) return Sim3d();
+  if (done_ < wanted) return corrections_.empty() ? Sim3d() : corrections_.back();  // It failed: that is the last one.
   const std::size_t back = done_ - wanted;
   return back < corrections_.size() ? corrections_[corrections_.size() - 1 - back] : corrections_.front();
 }

@@ -33,7 +33,7 @@ class LoopThread {
   void add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera);
 
   /// From the odometry's world to the corrected one, as known a fixed number of keyframes ago: waits for that if need
-  /// be, so that the same run says the same. The identity as long as no loop is closed, or after a failure.
+  /// be, so that the same run says the same. The identity as long as no loop is closed; after a failure the last one.
   Sim3d correction();
 
   /// Waits until all keyframes are done and closes their loops. To be called once, after the last one. Nothing if loop
