@@ -34,7 +34,7 @@ struct LoopCloserSettings {
   int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
   double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
   int spacing = 2;                   ///< Keyframes from one closed loop to the next, at least.
-  int graph_spacing = 20;            ///< Keyframes from one optimization of the graph to the next, at least.
+  int graph_spacing = 60;            ///< Keyframes from one optimization of the graph to the next, at least.
   double graph_chi2 = 50;            ///< Squared distance of a new loop from the poses that calls for one.
   int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
 };

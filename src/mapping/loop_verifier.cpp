@@ -1,10 +1,12 @@
 #include "mapping/loop_verifier.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "mapping/inlier_spread.h"
 #include "mapping/pinhole_projection.h"
@@ -171,8 +173,17 @@ void borrow_depths(Scene& scene) {
   }
 }
 
+/// Good enough to search around.
+Sim3Settings rough(Sim3Settings settings) {
+  settings.max_robust_rounds = std::min(settings.max_robust_rounds, 2);
+  settings.max_inlier_rounds = std::min(settings.max_inlier_rounds, 2);
+  settings.max_iterations = std::min(settings.max_iterations, 6);
+  return settings;
+}
+
 /// Searches the local map in the current keyframe around where `S` puts it, and estimates anew.
-bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius, LoopVerification& result) {
+bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius, const Sim3Settings& settings,
+            LoopVerification& result) {
   const Sim3d S = result.sim3.S_current_candidate;
   const Predictions predictions = predict(scene, points, S, radius);
   std::vector<Sim3Correspondence> correspondences;
@@ -183,7 +194,7 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
     result.matches.push_back({point.keyframe, point.feature, m.b, false, pixel.cast<float>()});
     correspondences.push_back(correspondence(scene, point.point, m.b));
   }
-  result.sim3 = estimate_sim3(correspondences, scene.camera, S, scene.settings.sim3);
+  result.sim3 = estimate_sim3(correspondences, scene.camera, S, settings);
   result.num_with_depth = 0;
   for (std::size_t i = 0; i < result.matches.size(); ++i) {
     result.matches[i].inlier = result.sim3.is_inlier[i];
@@ -217,14 +228,20 @@ std::string refusal(const char* what, double value, const char* limit_word, doub
   return text;
 }
 
-/// Why the similarity must not be believed; empty if it may.
-std::string doubt(const Scene& scene, LoopVerification& result) {
-  const LoopVerifierSettings& s = scene.settings;
+/// Whether too few matches agree on the similarity; empty if they are enough.
+std::string lack_of_support(const LoopVerifierSettings& s, const LoopVerification& result) {
   const Sim3Estimate& sim3 = result.sim3;
   if (sim3.num_inliers < s.min_inliers) return refusal("inliers", sim3.num_inliers, "at least", s.min_inliers);
   if (!sim3.scale_determined || sim3.num_depth_inliers < s.min_depth_inliers) {
     return refusal("inliers with depth on both sides", sim3.num_depth_inliers, "at least", s.min_depth_inliers);
   }
+  return {};
+}
+
+/// Why the similarity must not be believed though enough matches agree on it; empty if it may.
+std::string doubt(const Scene& scene, LoopVerification& result) {
+  const LoopVerifierSettings& s = scene.settings;
+  const Sim3Estimate& sim3 = result.sim3;
   const double depth_share = static_cast<double>(sim3.num_depth_inliers) / std::max(1, result.num_with_depth);
   if (depth_share < s.min_depth_share) {
     return refusal("share of the depths that fit", depth_share, "at least", s.min_depth_share);
@@ -287,10 +304,12 @@ LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate,
   }
   result.sim3.S_current_candidate = *initial;
   const std::vector<LocalPoint> points = local_map(scene);
-  for (const double radius : {settings.search_radius_px, settings.final_radius_px}) {
-    if (refine(scene, points, radius, result)) continue;
-    result.reason = "no similarity explains the matches of the local map";
-    return result;
+  const std::array<std::pair<double, Sim3Settings>, 2> steps = {
+      {{settings.search_radius_px, rough(settings.sim3)}, {settings.final_radius_px, settings.sim3}}};
+  for (const auto& [radius, sim3] : steps) {
+    const bool found = refine(scene, points, radius, sim3, result);
+    result.reason = found ? lack_of_support(settings, result) : "no similarity explains the matches of the local map";
+    if (!result.reason.empty()) return result;
   }
   count_seen(scene, points, result);
   result.reason = doubt(scene, result);

@@ -17,7 +17,7 @@ namespace ldso {
 struct LoopVerifierSettings {
   int min_own_matches = 6;  ///< By descriptors, with the candidate itself.
   int min_matches = 15;     ///< By descriptors alone.
-  int min_pnp_inliers = 10;
+  int min_pnp_inliers = 12;
   int min_inliers = 20;            ///< Of the similarity.
   int min_depth_inliers = 10;      ///< Of those, with depth on both sides.
   double min_depth_share = 0.3;    ///< Depths that fit, of the inliers' that have one on both sides.
@@ -33,7 +33,7 @@ struct LoopVerifierSettings {
   double final_radius_px = 4;      ///< then.
   DescriptorMatchSettings matching;
   PnpSettings pnp{.max_iterations = 300};
-  Sim3Settings sim3;
+  Sim3Settings sim3{.max_robust_rounds = 3, .max_inlier_rounds = 6, .max_iterations = 10};
 };
 
 /// A point of the candidate's local map that was found in the current keyframe.
