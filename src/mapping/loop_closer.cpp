@@ -181,7 +181,8 @@ void LoopCloser::accept(Hypothesis& hypothesis) {
 }
 
 bool LoopCloser::is_due(int index) const {
-  if (index < last_optimized_ + settings_.graph_spacing) return false;
+  // The larger the graph, the longer it takes and the less a loop more changes.
+  if (index < last_optimized_ + std::max(settings_.graph_spacing, map_.size() / 20)) return false;
   for (std::size_t i = loops_in_graph_; i < accepted_.size(); ++i) {
     const Hypothesis& loop = accepted_[i];
     const Sim3d S_graph = corrected_[loop.current].inverse() * corrected_[loop.candidate];
