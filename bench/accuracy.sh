@@ -44,22 +44,11 @@ case $directions in
   *) fail "-d takes forward, reverse or both, not '$directions'" ;;
 esac
 
+source "$here/sequences.sh"
 sequences=()
-add_sequence() { if [[ $1 =~ $pattern ]]; then sequences+=("$1|$2"); fi; }
-if [[ -n ${LDSO_DATA:-} ]]; then
-  [[ -d $LDSO_DATA/7scenes_kitchen ]] && add_sequence 7scenes_kitchen "$LDSO_DATA/7scenes_kitchen"
-  for number in 00 05 06; do
-    folder=$LDSO_DATA/kitti/sequences/$number
-    [[ -d $folder ]] && add_sequence "kitti_$number" "$folder"
-  done
-fi
-if [[ -n ${LDSO_SIM:-} ]]; then
-  for times in "$LDSO_SIM"/*/times.txt; do
-    [[ -f $times ]] || continue
-    folder=$(dirname "$times")
-    add_sequence "$(basename "$folder")" "$folder"
-  done
-fi
+while IFS= read -r sequence; do
+  if [[ ${sequence%%|*} =~ $pattern ]]; then sequences+=("$sequence"); fi
+done < <(list_sequences)
 ((${#sequences[@]} > 0)) || fail "no sequences; set LDSO_DATA or LDSO_SIM, or check -k"
 
 if [[ -z $out ]]; then out=$(mktemp -d "${TMPDIR:-/tmp}/ldso_accuracy.XXXXXX"); fi

@@ -39,23 +39,12 @@ fail() { echo "loops.sh: $*" >&2; exit 1; }
 [[ -x $truth ]] || fail "no program at $truth; build the preset bench or give -t"
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || fail "-j takes a positive number, not '$jobs'"
 
-sequences=()
-if [[ -n ${LDSO_DATA:-} ]]; then
-  for folder in "$LDSO_DATA/7scenes_kitchen" "$LDSO_DATA"/kitti/sequences/0[056]; do
-    [[ -d $folder ]] && sequences+=("$folder")
-  done
-fi
-if [[ -n ${LDSO_SIM:-} ]]; then
-  for times in "$LDSO_SIM"/*/times.txt; do
-    [[ -f $times ]] && sequences+=("$(dirname "$times")")
-  done
-fi
+source "$here/sequences.sh"
+mapfile -t sequences < <(list_sequences)
 ((${#sequences[@]} > 0)) || fail "no sequences; set LDSO_DATA or LDSO_SIM"
 
 if [[ -z $out ]]; then out=$(mktemp -d "${TMPDIR:-/tmp}/ldso_loops.XXXXXX"); fi
 mkdir -p "$out"
-
-name_of() { case $1 in */kitti/sequences/*) echo "kitti_${1##*/}" ;; *) echo "${1##*/}" ;; esac; }
 
 # json FILE EXPRESSION: a figure of a JSON file, or "fail".
 json() { python3 -c "import json, sys; print(json.load(open(sys.argv[1]))$2)" "$1" 2>/dev/null || echo fail; }
@@ -71,9 +60,8 @@ longer_focal_lengths() {
   awk 'NR == 1 { at = $1 ~ /^[A-Za-z]/ ? 2 : 1; $at *= 1.015; $(at + 1) *= 1.015 } { print }' "$1"
 }
 
-run_once() {  # folder variant
-  local folder=$1 variant=$2 name dir
-  name=$(name_of "$folder")
+run_once() {  # name folder variant
+  local name=$1 folder=$2 variant=$3 dir
   dir=$out/${name}_$variant
   local -a options=()
   rm -rf "$dir"
@@ -109,10 +97,11 @@ run_once() {  # folder variant
 }
 
 runs=()
-for folder in "${sequences[@]}"; do
+for sequence in "${sequences[@]}"; do
+  IFS='|' read -r name folder <<<"$sequence"
   for variant in nominal nophoto focal reverse; do
     [[ $variant == focal && ! -e $folder/camera.txt ]] && continue
-    [[ $(name_of "$folder")/$variant =~ $pattern ]] && runs+=("$folder|$variant")
+    [[ $name/$variant =~ $pattern ]] && runs+=("$name|$folder|$variant")
   done
 done
 ((${#runs[@]} > 0)) || fail "no run matches -k $pattern"
@@ -121,12 +110,13 @@ printf '%-20s %-8s %10s %10s %10s %8s %6s %6s %10s %8s\n' sequence variant 'ATE 
   loops wrong 'off by [m]' 'time [s]'
 for run in "${runs[@]}"; do
   while (($(jobs -rp | wc -l) >= jobs)); do wait -n || true; done
-  run_once "${run%%|*}" "${run#*|}" &
+  IFS='|' read -r name folder variant <<<"$run"
+  run_once "$name" "$folder" "$variant" &
 done
 wait
 
 tr ' ' '\t' <<<"sequence variant ate_before_m ate_after_m before_percent ratio loops wrong off_m seconds" >"$out/loops.tsv"
-for run in "${runs[@]}"; do cat "$out/$(name_of "${run%%|*}")_${run#*|}/row.tsv" >>"$out/loops.tsv"; done
+for run in "${runs[@]}"; do cat "$out/${run%%|*}_${run##*|}/row.tsv" >>"$out/loops.tsv"; done
 echo
 awk -F'\t' '
   NR == 1 { next }

@@ -38,8 +38,16 @@ PoseGraph make_graph(PoseGraphScene& scene, int loops, int wrong) {
   return graph;
 }
 
-void report_outcome(benchmark::State& state, const PoseGraphReport& report, const PoseGraphScene& scene,
-                    const PoseGraph& graph) {
+/// Times the optimization from `start` and reports what came of it.
+void time_optimization(benchmark::State& state, const PoseGraphScene& scene, const PoseGraph& start) {
+  PoseGraph graph = start;
+  PoseGraphReport report;
+  for (auto _ : state) {
+    state.PauseTiming();
+    graph = start;
+    state.ResumeTiming();
+    report = graph.optimize(kKeyframes - 1);
+  }
   if (!report.ok || !report.converged) state.SkipWithError(report.reason.c_str());
   state.counters["iterations"] = report.iterations;
   state.counters["cost"] = report.final_cost;
@@ -50,15 +58,7 @@ void report_outcome(benchmark::State& state, const PoseGraphReport& report, cons
 void all_loops_at_once(benchmark::State& state) {
   PoseGraphScene scene(long_drive());
   const PoseGraph start = make_graph(scene, kLoops, static_cast<int>(state.range(0)));
-  PoseGraph graph = start;
-  PoseGraphReport report;
-  for (auto _ : state) {
-    state.PauseTiming();
-    graph = start;
-    state.ResumeTiming();
-    report = graph.optimize(kKeyframes - 1);
-  }
-  report_outcome(state, report, scene, graph);
+  time_optimization(state, scene, start);
 }
 BENCHMARK(all_loops_at_once)->Arg(0)->Arg(10)->Unit(benchmark::kMillisecond);
 
@@ -68,15 +68,7 @@ void one_more_loop(benchmark::State& state) {
   PoseGraph start = make_graph(scene, kLoops - 1, static_cast<int>(state.range(0)));
   start.optimize(kKeyframes - 1);
   start.add_loop_edge(scene.true_loop(300, kKeyframes - 700 + 1));
-  PoseGraph graph = start;
-  PoseGraphReport report;
-  for (auto _ : state) {
-    state.PauseTiming();
-    graph = start;
-    state.ResumeTiming();
-    report = graph.optimize(kKeyframes - 1);
-  }
-  report_outcome(state, report, scene, graph);
+  time_optimization(state, scene, start);
 }
 BENCHMARK(one_more_loop)->Arg(0)->Arg(10)->Unit(benchmark::kMillisecond);
 
@@ -87,15 +79,7 @@ void one_wrong_loop(benchmark::State& state) {
   PoseGraph start = make_graph(scene, kLoops - 1, 0);
   start.optimize(kKeyframes - 1);
   start.add_loop_edge(scene.wrong_loop(kKeyframes - 1700 - state.range(0), kKeyframes - 700));
-  PoseGraph graph = start;
-  PoseGraphReport report;
-  for (auto _ : state) {
-    state.PauseTiming();
-    graph = start;
-    state.ResumeTiming();
-    report = graph.optimize(kKeyframes - 1);
-  }
-  report_outcome(state, report, scene, graph);
+  time_optimization(state, scene, start);
 }
 BENCHMARK(one_wrong_loop)->Arg(20)->Arg(300)->Unit(benchmark::kMillisecond);
 

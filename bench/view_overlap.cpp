@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "util/median.h"
+
 namespace ldso {
 namespace {
 
@@ -56,9 +58,7 @@ std::optional<double> median_depth(const std::vector<Feature>& a, const std::vec
     if (const auto depth = triangulate(feature, *match, T_b_a, camera)) depths.push_back(*depth);
   }
   if (depths.size() < kLeastPoints) return {};
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return upper_median(depths);
 }
 
 double overlap(const SE3d& T_b_a, double depth, const PinholeIntrinsics& camera) {

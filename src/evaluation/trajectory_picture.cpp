@@ -10,6 +10,7 @@
 
 #include "evaluation/svg_chart.h"
 #include "ldso/error.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -35,9 +36,7 @@ double median_step(const Trajectory& trajectory) {
     steps.push_back(std::abs(trajectory[i].timestamp - trajectory[i - 1].timestamp));
   }
   if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(steps);
 }
 
 Trajectory finite_in_time_order(const Trajectory& trajectory) {

@@ -1,19 +1,23 @@
 #include "mapping/chain_table.h"
 
-#include <cmath>
 #include <cstddef>
 
 namespace ldso {
 namespace {
 
+using Covariances = decltype(OdometryChain::covariance);
+
+/// Of A x, from those of x.
+Covariances carried(const Matrix7d& A, Covariances covariances) {
+  for (Matrix7d& C : covariances) C = (A * C * A.transpose()).eval();
+  return covariances;
+}
+
 /// The way from b to a, from that from a to b.
 OdometryChain reversed(const OdometryChain& chain) {
   OdometryChain result;
   result.S_from_to = chain.S_from_to.inverse();
-  const Matrix7d A = result.S_from_to.adjoint();
-  for (std::size_t k = 0; k < chain.covariance.size(); ++k) {
-    result.covariance[k] = A * chain.covariance[k] * A.transpose();
-  }
+  result.covariance = carried(result.S_from_to.adjoint(), chain.covariance);
   result.length = chain.length;
   return result;
 }
@@ -29,11 +33,9 @@ ChainTable::ChainTable(const KeyframeMap& map) : from_first_(static_cast<std::si
     } else {
       const OdometryChain& before = from_first_[static_cast<std::size_t>(last)];
       const OdometryChain step = map.chain(last, index);
-      const Matrix7d A = before.S_from_to.adjoint();
       chain.S_from_to = before.S_from_to * step.S_from_to;
-      for (std::size_t k = 0; k < step.covariance.size(); ++k) {
-        chain.covariance[k] = before.covariance[k] + A * step.covariance[k] * A.transpose();
-      }
+      chain.covariance = carried(before.S_from_to.adjoint(), step.covariance);
+      for (std::size_t k = 0; k < chain.covariance.size(); ++k) chain.covariance[k] += before.covariance[k];
       chain.length = before.length + step.length;
     }
     last = index;
@@ -45,12 +47,10 @@ OdometryChain ChainTable::between(int from, int to) const {
   const OdometryChain& b = from_first_[static_cast<std::size_t>(to)];
   if (a.length > b.length) return reversed(between(to, from));
   const Sim3d S_from_first = a.S_from_to.inverse();
-  const Matrix7d A = S_from_first.adjoint();
   OdometryChain chain;
   chain.S_from_to = S_from_first * b.S_from_to;
-  for (std::size_t k = 0; k < chain.covariance.size(); ++k) {
-    chain.covariance[k] = A * (b.covariance[k] - a.covariance[k]) * A.transpose();
-  }
+  for (std::size_t k = 0; k < chain.covariance.size(); ++k) chain.covariance[k] = b.covariance[k] - a.covariance[k];
+  chain.covariance = carried(S_from_first.adjoint(), chain.covariance);
   chain.length = b.length - a.length;
   return chain;
 }

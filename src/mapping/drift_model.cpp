@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "util/median.h"
+
 namespace ldso {
 namespace {
 
@@ -55,9 +57,8 @@ void improve_loops(std::span<const LoopDiscrepancy> between, VarianceFactors& fa
   std::vector<double> chi2;
   for (const LoopDiscrepancy& d : between) chi2.push_back(discrepancy_chi2(d, factors));
   if (chi2.empty()) return;
-  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
-  std::nth_element(chi2.begin(), middle, chi2.end());
-  if (std::isfinite(*middle)) factors.loops = std::clamp(factors.loops * *middle / kMedianChi2, 1.0, kMostFactor);
+  const double median = upper_median(chi2);
+  if (std::isfinite(median)) factors.loops = std::clamp(factors.loops * median / kMedianChi2, 1.0, kMostFactor);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ldso/error.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -34,9 +35,7 @@ double median_idepth(const std::vector<MapFeature>& features) {
     if (feature.idepth > 0) idepths.push_back(feature.idepth);
   }
   if (idepths.empty()) return 0;
-  const auto middle = idepths.begin() + static_cast<std::ptrdiff_t>(idepths.size() / 2);
-  std::nth_element(idepths.begin(), middle, idepths.end());
-  return *middle;
+  return upper_median(idepths);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // and where the odometry put them relative to the keyframes they shared the window with.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -62,6 +63,9 @@ class KeyframeMap {
 
   /// The keyframe before it in time, of those that are here.
   std::optional<int> before(int index) const;
+
+  /// The last keyframe in time. There must be one.
+  int newest() const { return index_of_.rbegin()->second; }
 
   /// Indices of all keyframes in the order of time.
   std::vector<int> in_time() const;

@@ -250,7 +250,7 @@ void LoopCloser::optimize() {
 
 Sim3d LoopCloser::correction() const {
   if (map_.size() == 0) return Sim3d();
-  const int newest = map_.in_time().back();
+  const int newest = map_.newest();
   return corrected_[newest] * Sim3d(map_[newest].T_world_camera).inverse();
 }
 

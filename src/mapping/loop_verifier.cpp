@@ -203,21 +203,27 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
   return result.sim3.status == Sim3Status::kOk;
 }
 
-/// How much of what the candidate saw is there: its own points that should be in view, and those of them where a corner
-/// was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
-void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, LoopVerification& result) {
-  std::vector<Eigen::Vector2f> found;
+/// In the current keyframe.
+std::vector<Eigen::Vector2d> inlier_pixels(const Scene& scene, const LoopVerification& result) {
+  std::vector<Eigen::Vector2d> pixels;
   for (const LoopMatch& match : result.matches) {
     const Feature& feature = scene.seen[match.current].feature;
-    if (match.inlier) found.emplace_back(feature.u, feature.v);
+    if (match.inlier) pixels.emplace_back(feature.u, feature.v);
   }
+  return pixels;
+}
+
+/// How much of what the candidate saw is there: its own points that should be in view, and those of them where a corner
+/// was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
+void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, const std::vector<Eigen::Vector2d>& found,
+                LoopVerification& result) {
   const double radius = scene.settings.final_radius_px;
   const Predictions predictions = predict(scene, points, result.sim3.S_current_candidate, radius);
   for (std::size_t i = 0; i < predictions.points.size(); ++i) {
     if (points[predictions.index[i]].keyframe != scene.candidate) continue;
     ++result.num_visible;
-    result.num_seen += std::any_of(found.begin(), found.end(), [&](const Eigen::Vector2f& pixel) {
-      return (pixel - predictions.points[i].pixel).squaredNorm() < radius * radius;
+    result.num_seen += std::any_of(found.begin(), found.end(), [&](const Eigen::Vector2d& pixel) {
+      return (pixel.cast<float>() - predictions.points[i].pixel).squaredNorm() < radius * radius;
     });
   }
 }
@@ -239,17 +245,12 @@ std::string lack_of_support(const LoopVerifierSettings& s, const LoopVerificatio
 }
 
 /// Why the similarity must not be believed though enough matches agree on it; empty if it may.
-std::string doubt(const Scene& scene, LoopVerification& result) {
+std::string doubt(const Scene& scene, const std::vector<Eigen::Vector2d>& pixels, LoopVerification& result) {
   const LoopVerifierSettings& s = scene.settings;
   const Sim3Estimate& sim3 = result.sim3;
   const double depth_share = static_cast<double>(sim3.num_depth_inliers) / std::max(1, result.num_with_depth);
   if (depth_share < s.min_depth_share) {
     return refusal("share of the depths that fit", depth_share, "at least", s.min_depth_share);
-  }
-  std::vector<Eigen::Vector2d> pixels;
-  for (const LoopMatch& match : result.matches) {
-    const Feature& feature = scene.seen[match.current].feature;
-    if (match.inlier) pixels.emplace_back(feature.u, feature.v);
   }
   const InlierSpread spread = inlier_spread(pixels, scene.camera);
   result.covered_cells = spread.covered_cells;
@@ -311,8 +312,9 @@ LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate,
     result.reason = found ? lack_of_support(settings, result) : "no similarity explains the matches of the local map";
     if (!result.reason.empty()) return result;
   }
-  count_seen(scene, points, result);
-  result.reason = doubt(scene, result);
+  const std::vector<Eigen::Vector2d> pixels = inlier_pixels(scene, result);
+  count_seen(scene, points, pixels, result);
+  result.reason = doubt(scene, pixels, result);
   result.accepted = result.reason.empty();
   return result;
 }

@@ -50,8 +50,8 @@ struct LoopVerification {
   std::string reason;  ///< Why not.
   int num_descriptor_matches = 0;
   int num_pnp_inliers = 0;
-  int num_visible = 0;     ///< Own points of the candidate that should be in view.
   int num_with_depth = 0;  ///< Inliers that have a depth on both sides, whether it fits or not.
+  int num_visible = 0;     ///< Own points of the candidate that should be in view.
   int num_seen = 0;        ///< Those of them where a corner was found.
   double covered_cells = 0;
   std::vector<LoopMatch> matches;

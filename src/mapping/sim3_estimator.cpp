@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mapping/pinhole_projection.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -189,9 +190,7 @@ double variance_factor(std::span<const double> squared_errors, double median, do
       if (e <= gate * factor) inside.push_back(e);
     }
     if (inside.empty()) return 1;
-    const auto middle = inside.begin() + static_cast<std::ptrdiff_t>(inside.size() / 2);
-    std::nth_element(inside.begin(), middle, inside.end());
-    const double next = std::clamp(excess * *middle / median, 1.0, largest);
+    const double next = std::clamp(excess * upper_median(inside) / median, 1.0, largest);
     if (next >= factor) break;
     factor = next;
   }
@@ -333,9 +332,8 @@ std::optional<Sim3d> initial_sim3(std::span<const Sim3Correspondence> correspond
     if (std::isfinite(ratio) && ratio > 0) ratios.push_back(ratio);
   }
   if (ratios.empty()) return std::nullopt;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return Sim3d(T_current_candidate.rotation(), *middle * T_current_candidate.translation(), *middle);
+  const double scale = upper_median(ratios);
+  return Sim3d(T_current_candidate.rotation(), scale * T_current_candidate.translation(), scale);
 }
 
 std::optional<Sim3Uncertainty> sim3_uncertainty(const Matrix7d& information) {

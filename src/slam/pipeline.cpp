@@ -45,7 +45,7 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
 }
 
 void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
-  result_.keyframes.push_back(keyframe.update);
+  result_.keyframes.push_back(loops_ ? keyframe.update : std::move(keyframe.update));
   result_.keyframes.back().constraints.clear();
   if (loops_) loops_->add(std::move(keyframe), odometry_.window().intrinsics());
 }

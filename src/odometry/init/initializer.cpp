@@ -10,6 +10,7 @@
 #include "ldso/error.h"
 #include "odometry/init/rotation_alignment.h"
 #include "odometry/selection/point_selector.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -26,9 +27,7 @@ constexpr double kStill = 1.0;                  // Median displacement below whi
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 std::string text(const char* format, double a, double b = 0) {

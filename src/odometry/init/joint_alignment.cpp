@@ -11,6 +11,7 @@
 #include "image/interpolation.h"
 #include "odometry/init/patch_tracker.h"
 #include "odometry/residual_pattern.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -74,9 +75,7 @@ float gradient_weight(const Texel& s) {
 
 double median(std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 /// The problem on one pyramid level.
