@@ -62,7 +62,7 @@ step "Comparing with the truth"
 
 # figure NAME: the first number of the line that begins with NAME.
 figure() { awk -v n="$1" 'index($0, n) == 1 { split(substr($0, length(n) + 1), f, " "); print f[1]; exit }' "$result/eval.txt"; }
-entry() { sed -n "s/^ *\"$1\": \([-0-9.e+]*\),\{0,1\}$/\1/p" "$result/run.json" | head -n 1; }
+entry() { sed -n "s/^ *\"$1\": \([-0-9.e+]*\),\{0,1\}$/\1/p" "$result/run.json" | sed -n 1p; }
 ate=$(figure "ATE [m]")
 percent=$(figure "ATE of path")
 [[ -n $ate && -n $percent ]] || fail "the comparison has no ATE; see $result/eval.txt"

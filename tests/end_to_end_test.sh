@@ -19,7 +19,7 @@ expect_true "all images were read" "$frames == $(json "$out/run.json" "['sequenc
 expect_json "$out/run.json" "['counts']['frames_with_pose']" "$(poses "$out/trajectory.txt")"
 expect_json "$out/run.json" "['counts']['keyframes']" "$(poses "$out/keyframes.txt")"
 expect_true "KITTI poses are as many" "$(poses "$out/trajectory_kitti.txt") == $(poses "$out/trajectory.txt")"
-expect_json "$out/run.json" "['counts']['points']" "$(sed -n 's/^element vertex //p;/^end_header/q' "$out/map.ply" | head -1)"
+expect_json "$out/run.json" "['counts']['points']" "$(sed -n 's/^element vertex //p;/^end_header/q' "$out/map.ply" | sed -n 1p)"
 expect_json "$out/run.json" "['counts']['restarts']" 0
 expect_true "there are points" "$(json "$out/run.json" "['counts']['points']") > 500"
 expect_true "no frame after the tenth is without a pose" \

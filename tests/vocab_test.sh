@@ -11,8 +11,8 @@ expect_exit 0 vocab train "$SEQUENCE" -o "$WORK/a.ldsovoc" "${small[@]}" --strid
 expect_output '^training: 100 %'
 expect_output '^origin .*15 images'
 mkdir "$WORK/plain"
-find -L "$SEQUENCE/images" -type f | sort | head -8 | xargs -I{} cp {} "$WORK/plain/"
-mapfile -t files < <(find "$WORK/plain" -type f | sort | head -3)
+find -L "$SEQUENCE/images" -type f | sort | sed -n 1,8p | xargs -I{} cp {} "$WORK/plain/"
+mapfile -t files < <(find "$WORK/plain" -type f | sort | sed -n 1,3p)
 expect_exit 0 vocab train "$WORK/plain" "${files[@]}" -o "$WORK/plain.ldsovoc" "${small[@]}"
 expect_output '^origin .*11 images'
 
