@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 fail() { echo "tidy.sh: $*" >&2; exit 2; }
 tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || fail "install clang-tidy-14 first (scripts/packages.txt)"
-"$tidy" --version | grep -q 'version 14\.' || echo "tidy.sh: the rules are written for version 14" >&2
+[[ $("$tidy" --version) == *'version 14.'* ]] || echo "tidy.sh: the rules are written for version 14" >&2
 build=${LDSO_TIDY_BUILD:-build/release}
 if [[ ! -f $build/compile_commands.json ]]; then
   [[ $build == build/release ]] || fail "$build/compile_commands.json is missing: configure that folder first"
