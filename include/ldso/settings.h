@@ -208,11 +208,33 @@ struct LoopSettings {
   }
 };
 
+/// Correction of a wrong calibration (focal lengths, radial distortion) from the first frames; the run then begins
+/// anew.
+struct SelfCalibrationSettings {
+  bool enabled = true;       ///< For sequences that can be read again, not for live images.
+  int frames = 300;          ///< First frames that are looked at.
+  int passes = 4;            ///< Times that a run may begin.
+  int least_windows = 4;     ///< Windows that must have been looked at.
+  double significance = 6;   ///< Least deviation from the given calibration [standard deviations].
+  double least_shift = 0.5;  ///< Least deviation that is worth it, where it is largest in the image [px].
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& s, Visitor&& visit) {
+    visit("enabled", s.enabled);
+    visit("frames", s.frames);
+    visit("passes", s.passes);
+    visit("least_windows", s.least_windows);
+    visit("significance", s.significance);
+    visit("least_shift", s.least_shift);
+  }
+};
+
 /// Everything that steers the system. Defaults are the published ones unless measured better.
 struct Settings {
   int threads = 2;  ///< Worker threads; results do not depend on it.
   SelectionSettings selection;
   PhotometrySettings photometry;
+  SelfCalibrationSettings self_calibration;
   InitializerSettings initializer;
   TrackingSettings tracking;
   TracingSettings tracing;
@@ -225,6 +247,7 @@ struct Settings {
     visit("threads", s.threads);
     visit("selection", s.selection);
     visit("photometry", s.photometry);
+    visit("self_calibration", s.self_calibration);
     visit("initializer", s.initializer);
     visit("tracking", s.tracking);
     visit("tracing", s.tracing);

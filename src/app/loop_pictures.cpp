@@ -74,9 +74,10 @@ void remove_loop_pictures(const fs::path& folder) {
 }
 
 std::vector<std::string> write_loop_pictures(const fs::path& folder, std::span<const LoopRecord> loops,
-                                             const Dataset& dataset, const PhotometrySettings& photometry) {
+                                             const Dataset& dataset, const Calibration& calibration,
+                                             const PhotometrySettings& photometry) {
   std::vector<std::string> warnings;
-  const FramePreprocessor preprocessor(dataset.calibration(), photometry);
+  const FramePreprocessor preprocessor(calibration, photometry);
   for (const LoopRecord& loop : loops) {
     if (!loop.accepted) continue;
     const std::string name = std::to_string(loop.keyframe_id) + "_" + std::to_string(loop.candidate_id) + ".png";

@@ -14,9 +14,11 @@ namespace ldso {
 
 /// Writes loops/<keyframe>_<candidate>.png below `folder` for each accepted loop: the candidate on the left, the
 /// keyframe on the right, rectified. Their images are read once more from `dataset`, which must be played as it was
-/// for the run; `photometry` are the settings of the run. Returns why pictures are missing, one text for each.
+/// for the run; `calibration` and `photometry` are those of the run. Returns why pictures are missing, one text for
+/// each.
 std::vector<std::string> write_loop_pictures(const std::filesystem::path& folder, std::span<const LoopRecord> loops,
-                                             const Dataset& dataset, const PhotometrySettings& photometry);
+                                             const Dataset& dataset, const Calibration& calibration,
+                                             const PhotometrySettings& photometry);
 
 /// Removes what write_loop_pictures() wrote there in an earlier run, and nothing else.
 void remove_loop_pictures(const std::filesystem::path& folder);

@@ -79,7 +79,7 @@ class LoopPictures : public testing::Test {
 
 TEST_F(LoopPictures, ShowTheCandidateLeftAndTheKeyframeRight) {
   const std::vector<LoopRecord> loops{loop(4, 1)};
-  EXPECT_TRUE(write_loop_pictures(folder_, loops, GreyDataset(), {}).empty());
+  EXPECT_TRUE(write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {}).empty());
   const fs::path path = folder_ / "loops" / "4_1.png";
   const Image<float> picture = read_grey_image(path);
   EXPECT_EQ(picture.width(), 2 * kWidth);
@@ -90,7 +90,7 @@ TEST_F(LoopPictures, ShowTheCandidateLeftAndTheKeyframeRight) {
 
 TEST_F(LoopPictures, LinearIntensitiesAreBrightened) {
   const std::vector<LoopRecord> loops{loop(4, 1)};
-  EXPECT_TRUE(write_loop_pictures(folder_, loops, GreyDataset(true), {}).empty());
+  EXPECT_TRUE(write_loop_pictures(folder_, loops, GreyDataset(true), GreyDataset().calibration(), {}).empty());
   const auto [left, right] = levels(folder_ / "loops" / "4_1.png");
   EXPECT_NEAR(left, 110, 1);  // The response is a square: its inverse is what people see.
   EXPECT_NEAR(right, 140, 1);
@@ -98,14 +98,15 @@ TEST_F(LoopPictures, LinearIntensitiesAreBrightened) {
 
 TEST_F(LoopPictures, AreOfAcceptedLoopsOnly) {
   const std::vector<LoopRecord> loops{loop(4, 1), loop(2, 0, false), loop(4, 0)};
-  EXPECT_TRUE(write_loop_pictures(folder_, loops, GreyDataset(), {}).empty());
+  EXPECT_TRUE(write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {}).empty());
   EXPECT_TRUE(fs::exists(folder_ / "loops" / "4_0.png"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "loops"), {}), 2);
 }
 
 TEST_F(LoopPictures, AFrameThatCannotBeReadAgainIsAWarning) {
   const std::vector<LoopRecord> loops{loop(3, 1), loop(9, 1), loop(4, 2)};
-  const std::vector<std::string> warnings = write_loop_pictures(folder_, loops, GreyDataset(), {});
+  const std::vector<std::string> warnings =
+      write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {});
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_NE(warnings[0].find("frame 3 to frame 1: frame 3"), std::string::npos) << warnings[0];
   EXPECT_NE(warnings[0].find("is damaged"), std::string::npos);
@@ -116,16 +117,16 @@ TEST_F(LoopPictures, AFrameThatCannotBeReadAgainIsAWarning) {
 TEST_F(LoopPictures, AFolderThatCannotBeMadeIsAWarning) {
   std::ofstream(folder_ / "loops") << "a file\n";
   const std::vector<LoopRecord> loops{loop(4, 1)};
-  EXPECT_EQ(write_loop_pictures(folder_, loops, GreyDataset(), {}).size(), 1U);
+  EXPECT_EQ(write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {}).size(), 1U);
 }
 
 TEST_F(LoopPictures, RemovesItsOwnPicturesOnly) {
   remove_loop_pictures(folder_);  // Nothing there.
   const std::vector<LoopRecord> loops{loop(4, 1)};
-  write_loop_pictures(folder_, loops, GreyDataset(), {});
+  write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {});
   remove_loop_pictures(folder_);
   EXPECT_FALSE(fs::exists(folder_ / "loops"));
-  write_loop_pictures(folder_, loops, GreyDataset(), {});
+  write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {});
   std::ofstream(folder_ / "loops" / "notes.txt") << "mine\n";
   remove_loop_pictures(folder_);
   EXPECT_FALSE(fs::exists(folder_ / "loops" / "4_1.png"));

@@ -94,13 +94,12 @@ void run_with_display(const Dataset& dataset, const RunArguments& a, RunSummary&
   ProgressDisplay display(a.quiet);
   WarningLog log(display);
   for (const std::string& warning : dataset.warnings()) log(LogLevel::kWarning, warning);
-  Pipeline pipeline(dataset.calibration(), summary.settings,
-                    [&log](LogLevel level, const std::string& text) { log(level, text); });
   const InterruptGuard interrupt;
   RunOptions options;
   options.stop = &interrupt.flag();
   options.progress = [&display](const RunProgress& progress) { display.update(progress); };
-  summary.run = run_sequence(dataset, pipeline, options);
+  summary.run = run_sequence(
+      dataset, summary.settings, [&log](LogLevel level, const std::string& text) { log(level, text); }, options);
   if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
   summary.warnings = log.warnings();
 }
@@ -109,8 +108,8 @@ void run_with_display(const Dataset& dataset, const RunArguments& a, RunSummary&
 void draw_loops(const RunArguments& a, const Dataset& dataset, RunSummary& summary) {
   remove_loop_pictures(a.out);
   if (!a.loop_pictures) return;
-  for (std::string& warning :
-       write_loop_pictures(a.out, summary.run.result.loops, dataset, summary.settings.photometry)) {
+  for (std::string& warning : write_loop_pictures(a.out, summary.run.result.loops, dataset, summary.run.calibration,
+                                                  summary.settings.photometry)) {
     std::cerr << "warning: " << warning << "\n";
     summary.warnings.push_back(std::move(warning));
   }

@@ -7,6 +7,7 @@
 
 #include "app/loops_json.h"
 #include "evaluation/trajectory_picture.h"
+#include "io/calibration_file.h"
 #include "io/ply_file.h"
 #include "io/trajectory_file.h"
 #include "ldso/error.h"
@@ -79,6 +80,8 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   write_ply(folder / "map.ply", ply_points(summary.points));
   write_loop_files(folder, summary);
   write_picture(folder, summary);
+  fs::remove(folder / "camera.txt");
+  if (summary.run.passes > 1) write_text(folder / "camera.txt", camera_file_text(summary.run.calibration));
   write_text(folder / "run.json", run_json(summary, dataset).dump(2) + "\n");
 }
 

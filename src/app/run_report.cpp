@@ -61,6 +61,19 @@ Json json_of(const PinholeIntrinsics& camera) {
           {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
 }
 
+Json self_calibration_json(const SequenceRun& run) {
+  const CameraCalibration& camera = run.calibration.camera;
+  return {{"passes", run.passes},
+          {"corrected", run.passes > 1},
+          {"camera",
+           {{"model", model_name(camera.model)},
+            {"fx", camera.fx},
+            {"fy", camera.fy},
+            {"cx", camera.cx},
+            {"cy", camera.cy},
+            {"distortion", camera.distortion}}}};
+}
+
 Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
   const Calibration& calibration = dataset.calibration();
   const DatasetOptions& options = summary.dataset_options;
@@ -126,6 +139,13 @@ std::string evaluation_text(const RunSummary& summary) {
   if (!summary.is_corrected() || !summary.odometry_evaluation.result) return text;
   return text +
          format("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
+}
+
+std::string calibration_text(const SequenceRun& run) {
+  if (run.passes == 1) return "";
+  const CameraCalibration& camera = run.calibration.camera;
+  return format("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f (camera.txt)\n", camera.fx,
+                camera.fy, camera.distortion[0]);
 }
 
 std::string loops_text(const RunSummary& summary) {
@@ -195,7 +215,7 @@ std::string summary_text(const RunSummary& summary) {
       format("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
       format("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
              frames_per_second(summary.run), peak_memory_mb());
-  return text + loops_text(summary) + evaluation_text(summary);
+  return text + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {
@@ -204,6 +224,7 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["versions"] = versions_json();
   json["sequence"] = sequence_json(summary, dataset);
   json["settings"] = settings_to_json(summary.settings);
+  json["self_calibration"] = self_calibration_json(run);
   json["counts"] = counts_json(summary);
   json["first_tracked_frame"] = summary.posed.empty() ? Json() : Json(summary.posed.front());
   json["initialized_at"] = run.result.initializations;

@@ -1,7 +1,11 @@
 #include "io/calibration_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -29,14 +33,14 @@ constexpr std::array<ModelLayout, 5> kModels{{
     {"EquiDistant", CameraModelKind::kKannalaBrandt, 4, "EquiDistant fx fy cx cy k1 k2 k3 k4"},
 }};
 
+/// By RectificationMode.
+constexpr std::array<const char*, 4> kModes{"none", "crop", "full", "explicit"};
+
 constexpr const char* kKnownModels =
     "`fx fy cx cy omega` or one of FOV, Pinhole, RadTan, KannalaBrandt, EquiDistant with its parameters is expected";
 
-const char* model_name(CameraModelKind kind) {
-  for (const ModelLayout& layout : kModels) {
-    if (layout.kind == kind) return layout.name;
-  }
-  return "unknown";
+const ModelLayout& layout_of(CameraModelKind kind) {
+  return *std::find_if(kModels.begin(), kModels.end(), [=](const ModelLayout& layout) { return layout.kind == kind; });
 }
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
@@ -167,8 +171,30 @@ Rectification parse_rectification(const TextFile& file, const CameraCalibration&
 
 }  // namespace
 
+const char* model_name(CameraModelKind kind) { return layout_of(kind).name; }
+
+std::string camera_file_text(const Calibration& calibration) {
+  const CameraCalibration& camera = calibration.camera;
+  const Rectification& rectification = calibration.rectification;
+  const PinholeIntrinsics& wanted = rectification.explicit_intrinsics;
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(std::numeric_limits<double>::max_digits10);
+  const ModelLayout& layout = layout_of(camera.model);
+  out << layout.name << ' ' << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy;
+  for (int i = 0; i < layout.parameters; ++i) out << ' ' << camera.distortion.at(static_cast<std::size_t>(i));
+  out << '\n' << camera.width << ' ' << camera.height << '\n';
+  if (rectification.mode == RectificationMode::kExplicit) {
+    out << wanted.fx << ' ' << wanted.fy << ' ' << wanted.cx << ' ' << wanted.cy << " 0\n";
+  } else {
+    out << kModes.at(static_cast<std::size_t>(rectification.mode)) << '\n';
+  }
+  out << (rectification.width > 0 ? rectification.width : camera.width) << ' '
+      << (rectification.height > 0 ? rectification.height : camera.height) << '\n';
+  return out.str();
+}
+
 std::string describe(const CameraCalibration& camera, const Rectification& rectification) {
-  static constexpr std::array<const char*, 4> kModes{"none", "crop", "full", "explicit"};
   return std::string(model_name(camera.model)) + " " + size_text(camera.width, camera.height) + " -> " +
          kModes.at(static_cast<std::size_t>(rectification.mode)) + " " +
          size_text(rectification.width > 0 ? rectification.width : camera.width,

@@ -21,6 +21,12 @@ namespace ldso {
 /// `description` says which was read. Throws Error naming file, line and what is expected.
 Calibration read_camera_calibration(const std::filesystem::path& path);
 
+/// The same as text: what read_camera_calibration() reads, in absolute intrinsics to the last bit.
+std::string camera_file_text(const Calibration& calibration);
+
+/// As camera.txt names it: "RadTan".
+const char* model_name(CameraModelKind kind);
+
 /// pcalib.txt: 256 values of the inverse response that nowhere decrease; scaled to 0..255, equal neighbours are moved
 /// apart by one rounding step. Throws Error.
 std::array<float, 256> read_inverse_response(const std::filesystem::path& path);

@@ -152,6 +152,23 @@ TEST_F(ResponseFile, BadTablesAreErrors) {
   EXPECT_NE(error_of([&] { response([](int i) { return i < 9 ? i : NAN; }); }).find("not finite"), std::string::npos);
 }
 
+TEST_F(CameraFile, WhatIsWrittenIsReadBack) {
+  for (const std::string text : {"Pinhole 500.1 501.2 320.3 240.4 0\n640 480\nnone\n640 480\n",
+                                 "RadTan 500.1 501.2 320.3 240.4 -0.2 0.07 0.001 -0.002\n640 480\ncrop\n320 240\n",
+                                 "FOV 500.1 501.2 320.3 240.4 0.9\n640 480\nfull\n320 240\n",
+                                 "KannalaBrandt 500.1 501.2 320.3 240.4 0.02 -0.01 0.003 -0.001\n640 480\n"
+                                 "250 251 160.5 120.5 0\n320 240\n"}) {
+    const Calibration before = read(text);
+    const Calibration after = read(camera_file_text(before));
+    EXPECT_EQ(describe(after.camera, after.rectification), describe(before.camera, before.rectification));
+    EXPECT_EQ(after.camera.fx, before.camera.fx);
+    EXPECT_EQ(after.camera.cy, before.camera.cy);
+    EXPECT_EQ(after.camera.distortion, before.camera.distortion);
+    EXPECT_EQ(after.rectification.explicit_intrinsics.cx, before.rectification.explicit_intrinsics.cx);
+    EXPECT_EQ(after.rectification.height, before.rectification.height);
+  }
+}
+
 TEST_F(CameraFile, PhotometricFilesAreUsedIfTheyAreThere) {
   Calibration calibration;
   read_photometric_calibration(folder_.path(), calibration);

@@ -4,6 +4,7 @@
 // slanted planes (nothing occludes anything) with a smooth solid texture, and sliding windows of keyframes in it.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -61,6 +62,9 @@ class SyntheticScene {
 
   const PinholeIntrinsics& camera() const { return camera_; }
 
+  /// From now on rays (x, y, 1) are seen at (1 + k (x^2 + y^2)) (x, y).
+  void set_radial(double k) { radial_ = k; }
+
   double idepth(const SE3d& T_c_w, double u, double v) const { return idepth_along(T_c_w.inverse(), ray(u, v)); }
 
   double grey(const SE3d& T_c_w, double u, double v) const { return grey_along(T_c_w.inverse(), ray(u, v)); }
@@ -88,7 +92,10 @@ class SyntheticScene {
   };
 
   Eigen::Vector3d ray(double u, double v) const {
-    return {(u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1};
+    const Eigen::Vector2d seen((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy);
+    Eigen::Vector2d ray = seen;
+    for (int i = 0; i < 10 && radial_ != 0; ++i) ray = seen / (1 + radial_ * ray.squaredNorm());
+    return ray.homogeneous();
   }
 
   double idepth_along(const SE3d& T_w_c, const Eigen::Vector3d& ray_c) const {
@@ -109,6 +116,7 @@ class SyntheticScene {
   }
 
   PinholeIntrinsics camera_;
+  double radial_ = 0;
   std::vector<Plane> planes_;
   std::vector<Wave> waves_;
 };

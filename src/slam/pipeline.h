@@ -39,6 +39,8 @@ class Pipeline {
   std::optional<SE3d> T_world_camera() const;
 
   int keyframes() const { return odometry_.keyframes(); }
+  /// The keyframes that are being optimized.
+  const Window& window() const { return odometry_.window(); }
   /// For stages outside of the pipeline whose time belongs to the result.
   StageTimes& times() { return times_; }
 

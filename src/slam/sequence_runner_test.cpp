@@ -47,9 +47,9 @@ class SceneDataset final : public Dataset {
   std::vector<std::string> warnings_;
 };
 
-SequenceRun run(const SceneDataset& dataset, const RunOptions& options = {}, LogSink log = {}) {
-  Pipeline pipeline(dataset.calibration(), Settings{}, std::move(log));
-  return run_sequence(dataset, pipeline, options);
+SequenceRun run(const SceneDataset& dataset, const RunOptions& options = {}, const LogSink& log = {},
+                const Settings& settings = {}) {
+  return run_sequence(dataset, settings, log, options);
 }
 
 TEST(SequenceRunner, GivesWhatSlamGives) {
@@ -115,6 +115,35 @@ TEST(SequenceRunner, ReportsProgressAndStopsWhenAsked) {
   EXPECT_EQ(stopped.result.frames.size(), 20u);
   EXPECT_GT(stopped.result.trajectory().size(), 3u);
   EXPECT_GT(stopped.result.points().size(), 100u);
+}
+
+TEST(SequenceRunner, BeginsAnewWithABetterCalibration) {
+  const SceneDataset dataset(60);
+  Settings settings;
+  settings.self_calibration.passes = 3;
+  settings.self_calibration.least_windows = 1;
+  settings.self_calibration.significance = 0;  // Anything will do.
+  settings.self_calibration.least_shift = 0;
+  int begun = 0;
+  RunOptions options;
+  options.progress = [&](const RunProgress& progress) { begun += progress.done == 1; };
+  std::vector<std::string> messages;
+  const SequenceRun done = run(
+      dataset, options, [&](LogLevel, const std::string& message) { messages.push_back(message); }, settings);
+  EXPECT_EQ(done.passes, 3);
+  EXPECT_EQ(begun, 3);
+  EXPECT_EQ(std::count_if(messages.begin(), messages.end(),
+                          [](const std::string& m) { return m.find("contradict the calibration") != m.npos; }),
+            2);
+  EXPECT_EQ(done.result.frames.size(), 60u);
+  EXPECT_EQ(done.calibration.camera.model, CameraModelKind::kRadTan);
+  EXPECT_EQ(done.error, "");
+
+  settings.self_calibration.enabled = false;
+  const SequenceRun once = run(dataset, {}, {}, settings);
+  EXPECT_EQ(once.passes, 1);
+  EXPECT_EQ(once.calibration.camera.fx, dataset.calibration().camera.fx);
+  EXPECT_EQ(once.calibration.camera.model, CameraModelKind::kPinhole);
 }
 
 TEST(SequenceRunner, AnErrorOnTheWaySavesWhatWasDone) {

@@ -1,0 +1,157 @@
+#include "odometry/window/lens_equations.h"
+
+#include <Eigen/LU>
+#include <array>
+
+#include "odometry/window/normal_equations.h"
+
+namespace ldso {
+namespace {
+
+/// A point whose inverse depth is determined more weakly is taken as known.
+constexpr double kLeastIdepthHessian = 1;
+
+constexpr int kPairDof = kLensGlobalDof + kFrameDof;       ///< Global, relative pose and brightness.
+constexpr int kLocalDof = kLensGlobalDof + 2 * kFrameDof;  ///< Global, target, host.
+constexpr int kPixelDof = kPairDof - 2;                    ///< What moves the pixel: not the brightness.
+
+using LensShift = Eigen::Matrix<double, 2, kLensDof>;
+using PixelJacobian = Eigen::Matrix<double, 2, kPixelDof>;
+using PairMatrix = Eigen::Matrix<double, kPairDof, kPairDof>;
+using PairVector = Eigen::Matrix<double, kPairDof, 1>;
+using LocalMatrix = Eigen::Matrix<double, kLocalDof, kLocalDof>;
+using LocalVector = Eigen::Matrix<double, kLocalDof, 1>;
+
+int offset(int keyframe) { return kLensGlobalDof + kFrameDof * keyframe; }
+
+/// Where the local variables of one residual stand among all.
+class LocalBlocks {
+ public:
+  LocalBlocks(int host, int target) : to_{0, offset(target), offset(host)} {}
+
+  void add(const LocalVector& from, Eigen::VectorXd& sum) const {
+    for (int i = 0; i < 3; ++i) sum.segment(to_[i], kSize[i]) += from.segment(kFrom[i], kSize[i]);
+  }
+  void add(const LocalMatrix& from, Eigen::MatrixXd& sum) const {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        sum.block(to_[i], to_[j], kSize[i], kSize[j]) += from.block(kFrom[i], kFrom[j], kSize[i], kSize[j]);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::array<int, 3> kFrom = {0, kLensGlobalDof, kPairDof};
+  static constexpr std::array<int, 3> kSize = {kLensGlobalDof, kFrameDof, kFrameDof};
+  std::array<int, 3> to_;
+};
+
+/// Jacobians of one residual's pixel.
+struct ResidualJacobian {
+  PixelJacobian pixel;
+  Eigen::Vector2d idepth;
+};
+
+bool make_jacobian(const CameraModel& lens, const FramePair& pair, const ActivePoint& point,
+                   const LensShift& host_shift, ResidualJacobian& J) {
+  ProjectionJacobian base;
+  if (!projection_jacobian(pair, point.u, point.v, point.idepth, base)) return false;
+  const Eigen::Vector4d camera = pair.camera_lin.cast<double>();
+  const Eigen::Matrix3d R = pair.R_lin.cast<double>();
+  const Eigen::Vector3d ray((point.u - camera[2]) / camera[0], (point.v - camera[3]) / camera[1], 1.0);
+  const Eigen::Vector3d p = R * ray + pair.t_lin.cast<double>() * point.idepth;
+  Eigen::Matrix<double, 2, 3> by_point;
+  by_point << 1, 0, -p.x() / p.z(), 0, 1, -p.y() / p.z();
+  // The host's pixel is given: if its lens shows rays further out, its true ray is further in.
+  const LensShift shift = lens_shift(lens, p.hnormalized()) - by_point / p.z() * R.leftCols<2>() * host_shift;
+  J.pixel << base.camera.cast<double>(), camera.head<2>().asDiagonal() * shift, base.pose.cast<double>();
+  J.idepth = base.idepth.cast<double>();
+  return true;
+}
+
+/// Sums over the pattern of one residual: H and b over the pair's variables, and their coupling with the inverse depth.
+struct PairEquations {
+  PairMatrix H;
+  PairVector b, coupling;
+};
+
+PairEquations pair_equations(const PatternSums& s, const ResidualJacobian& J) {
+  const Eigen::Matrix2d gg = (Eigen::Matrix2d() << s.gxx, s.gxy, s.gxy, s.gyy).finished();
+  /// Gradient times derivative by a and b, one column each.
+  const Eigen::Matrix2d gc = (Eigen::Matrix2d() << s.gxa, s.gxb, s.gya, s.gyb).finished();
+  PairEquations e;
+  e.H.topLeftCorner<kPixelDof, kPixelDof>() = J.pixel.transpose() * gg * J.pixel;
+  e.H.topRightCorner<kPixelDof, 2>() = J.pixel.transpose() * gc;
+  e.H.bottomLeftCorner<2, kPixelDof>() = e.H.topRightCorner<kPixelDof, 2>().transpose();
+  e.H.bottomRightCorner<2, 2>() << s.aa, s.ab, s.ab, s.bb;
+  e.b << J.pixel.transpose() * Eigen::Vector2d(s.rgx, s.rgy), s.ra, s.rb;
+  e.coupling << J.pixel.transpose() * (gg * J.idepth), gc.transpose() * J.idepth;
+  return e;
+}
+
+/// Maps the variables of a pair to the local ones: the host's tangent through the adjoint, the target's as it is.
+Eigen::Matrix<double, kPairDof, kLocalDof> local_map(const FramePair& pair) {
+  Eigen::Matrix<double, kPairDof, kLocalDof> map;
+  map.setZero();
+  map.leftCols<kPairDof>().setIdentity();
+  map.bottomRightCorner<kFrameDof, kFrameDof>() = pair.host_adjoint;
+  return map;
+}
+
+void add_point(const Window& window, const CameraModel& lens, const FramePairs& pairs, int host,
+               const ActivePoint& point, LensEquations& equations) {
+  const PinholeIntrinsics camera = window.intrinsics();
+  const LensShift host_shift = lens_shift(lens, {(point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy});
+  Eigen::VectorXd coupling = Eigen::VectorXd::Zero(equations.b.size());
+  double hessian = point.idepth_damping, gradient = 0;
+  for (const PointResidual& residual : point.residuals) {
+    if (residual.states[window.front] != ResidualState::kInlier) continue;
+    const int target = residual.target->index;
+    const FramePair& pair = pairs(host, target);
+    const PatternSums& s = residual.sums[window.front];
+    ResidualJacobian J;
+    if (!make_jacobian(lens, pair, point, host_shift, J)) continue;
+    const PairEquations e = pair_equations(s, J);
+    const auto map = local_map(pair);
+    const LocalBlocks blocks(host, target);
+    blocks.add(LocalMatrix(map.transpose() * e.H * map), equations.H);
+    blocks.add(LocalVector(map.transpose() * e.b), equations.b);
+    blocks.add(LocalVector(map.transpose() * e.coupling), coupling);
+    hessian += s.gxx * J.idepth.x() * J.idepth.x() + 2 * s.gxy * J.idepth.x() * J.idepth.y() +
+               s.gyy * J.idepth.y() * J.idepth.y();
+    gradient += s.rgx * J.idepth.x() + s.rgy * J.idepth.y();
+  }
+  if (hessian < kLeastIdepthHessian) return;
+  equations.H.noalias() -= coupling / hessian * coupling.transpose();
+  equations.b -= coupling * (gradient / hessian);
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 2, kLensDof> lens_shift(const CameraModel& lens, const Eigen::Vector2d& ray) {
+  CameraModel::Matrix23 J_point;
+  Eigen::Matrix2Xd J_parameters;
+  lens.project(ray.homogeneous(), &J_point, &J_parameters);
+  LensShift raw;
+  raw << J_parameters.leftCols<2>(), J_parameters.col(kCameraDof);
+  // The raw pixel moves so; which ray of the rectified image shows it is a matter of the lens as it was given.
+  const Eigen::Matrix2d raw_by_ray = J_point.leftCols<2>();
+  const LensShift shift = raw_by_ray.inverse() * raw;
+  return shift.allFinite() ? shift : LensShift(LensShift::Zero());
+}
+
+LensEquations make_lens_equations(const Window& window, const CameraModel& lens) {
+  LensEquations equations(offset(window.size()));
+  const FramePairs pairs(window);
+  for (const auto& keyframe : window.keyframes) {
+    const int at = offset(keyframe->index);
+    equations.H.diagonal().segment<kFrameDof>(at) += keyframe->prior;
+    equations.b.segment<kFrameDof>(at) += keyframe->prior.cwiseProduct(keyframe->state.delta - keyframe->prior_mean);
+    for (const ActivePoint& point : keyframe->points) {
+      add_point(window, lens, pairs, keyframe->index, point, equations);
+    }
+  }
+  return equations;
+}
+
+}  // namespace ldso
