@@ -101,8 +101,7 @@ std::string draw_run(const JobResult& result, const ErrorKind& kind, const Error
   if (result.state == RunState::kFailed) return rectangle(box, "white", name + "failed" + reason) + cross(box);
   const std::optional<double> error = counted_error(result, kind);
   if (!error) return rectangle(box, "#f2f2f2", name + "not measured" + reason) + question_mark(box);
-  return rectangle(box, colours.colour(*error),
-                   name + table_number(*error) + (kind.unit.empty() ? "" : " " + std::string(kind.unit)));
+  return rectangle(box, colours.colour(*error), (name + table_number(*error)).append(" ").append(kind.unit));
 }
 
 std::string draw_blocks(const DatasetResults& dataset, const std::vector<RowGroup>& groups, const Layout& layout,

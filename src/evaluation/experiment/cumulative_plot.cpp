@@ -11,7 +11,7 @@
 namespace ldso {
 namespace {
 
-constexpr double kWidth = 900, kLeft = 80, kTop = 74, kChartWidth = 540, kChartHeight = 420, kAxisRoom = 60;
+constexpr double kLeft = 80, kTop = 74, kChartWidth = 540, kChartHeight = 420, kAxisRoom = 60;
 constexpr double kShareShown = 0.9;  ///< Of the runs of the variant that has most within the axis.
 
 // Okabe and Ito's palette; dashes tell the rest.
@@ -33,7 +33,7 @@ std::vector<Curve> curves_of(const DatasetResults& dataset, const ErrorKind& kin
     curves.push_back({dataset.variants[i], {colour, 2.2, 1, dash}, collect_errors(jobs, kind)});
     if (!any_changed_by_loops(jobs, kind)) continue;
     curves.push_back({dataset.variants[i] + ", before loops",
-                      {colour, 1.6, 1, "3 3"},
+                      {colour, 1.8, 1, "3 3"},
                       collect_errors(jobs, kind, Trajectories::kBeforeLoops)});
   }
   return curves;
@@ -101,23 +101,37 @@ Polyline steps_of(const GroupErrors& errors, const ErrorAxis& axis) {
   return steps;
 }
 
-std::string runs(std::size_t count, const std::string& what) { return std::to_string(count) + " " + what; }
-
-/// "of 60 runs: 3 failed, 2 pending, 5 beyond the axis"
+/// "3 failed, 2 pending, 5 beyond the axis"; empty if all runs are within the axis.
 std::string remarks(const Curve& curve, const ErrorAxis& axis) {
   const GroupErrors& e = curve.errors;
   const std::size_t finite = finite_count(e.values);
   const auto beyond =
       static_cast<std::size_t>(std::count_if(e.values.begin(), e.values.begin() + static_cast<std::ptrdiff_t>(finite),
                                              [&](double error) { return axis.position(error) > axis.range.max; }));
-  std::vector<std::string> parts;
-  if (e.failed > 0) parts.push_back(runs(e.failed, "failed"));
-  if (beyond > 0) parts.push_back(runs(beyond, "beyond"));
-  if (e.pending > 0) parts.push_back(runs(e.pending, "pending"));
-  if (e.unmeasured > 0) parts.push_back(runs(e.unmeasured, "not measured"));
-  std::string text = runs(e.values.size() + e.pending + e.unmeasured, "runs");
-  for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? ": " : ", ") + parts[i];
+  std::string text;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text.append(text.empty() ? "" : ", ").append(std::to_string(count)).append(what);
+  };
+  add(e.failed, " failed");
+  add(beyond, " beyond the axis");
+  add(e.pending, " pending");
+  add(e.unmeasured, " not measured");
   return text;
+}
+
+std::string curve_title(const Curve& curve) {
+  const GroupErrors& e = curve.errors;
+  return curve.label + " (" + std::to_string(e.values.size() + e.pending + e.unmeasured) + " runs)";
+}
+
+/// Room that the texts of the legend need [px].
+double legend_width(const std::vector<Curve>& curves, const ErrorAxis& axis) {
+  double width = 0;
+  for (const Curve& curve : curves) {
+    width = std::max({width, 7.6 * static_cast<double>(curve_title(curve).size()),
+                      6.4 * static_cast<double>(remarks(curve, axis).size())});
+  }
+  return 22 + 38 + width + 16;
 }
 
 std::string draw_legend(const std::vector<Curve>& curves, const ErrorAxis& axis) {
@@ -125,7 +139,7 @@ std::string draw_legend(const std::vector<Curve>& curves, const ErrorAxis& axis)
   double y = kTop + 10;
   std::string svg;
   for (const Curve& curve : curves) {
-    svg += svg_line_sample(x, y, curve.style) + svg_text(x + 38, y + 4, curve.label, 13);
+    svg += svg_line_sample(x, y, curve.style) + svg_text(x + 38, y + 4, curve_title(curve), 13);
     svg += svg_text(x + 38, y + 20, remarks(curve, axis), 11, "start", "fill=\"#555555\"");
     y += 42;
   }
@@ -155,7 +169,7 @@ std::string cumulative_plot(const DatasetResults& dataset, const ErrorKind& kind
   for (const Curve& curve : curves) chart.add_line(steps_of(curve.errors, axis), curve.style);
   const std::string title = std::string(kind.title) + (dataset.name.empty() ? "" : ", " + dataset.name);
   const double height = std::max(kTop + kChartHeight + kAxisRoom, kTop + 30 + 42 * static_cast<double>(curves.size()));
-  return svg_document(kWidth, height,
+  return svg_document(kLeft + kChartWidth + legend_width(curves, axis), height,
                       svg_text(24, 30, title, 18, "start", "font-weight=\"bold\"") +
                           svg_text(24, 52, "number of runs whose error is below x; higher and further left is better",
                                    13, "start", "fill=\"#555555\"") +

@@ -18,8 +18,9 @@ extern const char kPublishedText[];
 namespace {
 
 [[noreturn]] void fail(const std::string& where, const YAML::Mark& mark, const std::string& problem) {
-  const std::string line = mark.is_null() ? "" : ":" + std::to_string(mark.line + 1);
-  throw Error(where + line, problem, "see experiments/published.yaml for the form");
+  std::string place = where;
+  if (!mark.is_null()) place.append(":").append(std::to_string(mark.line + 1));
+  throw Error(place, problem, "see experiments/published.yaml for the form");
 }
 
 PublishedResults results_of(const std::string& where, const YAML::Node& node) {

@@ -37,7 +37,7 @@ std::vector<DatasetResults> group_by_dataset(const std::vector<JobResult>& resul
     group.sequences = names_of(group.jobs, &ExperimentJob::sequence);
     group.variants = names_of(group.jobs, &ExperimentJob::variant);
     group.file_name = file_name_of(group.name.empty() ? "sequences" : group.name);
-    if (metrics[group.name].size() > 1) group.file_name += "_" + to_string(group.metric);
+    if (metrics[group.name].size() > 1) group.file_name.append("_").append(to_string(group.metric));
     datasets.push_back(std::move(group));
   }
   return datasets;

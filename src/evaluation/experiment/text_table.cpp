@@ -36,7 +36,8 @@ std::string padded(const std::string& text, std::size_t width, bool left) {
 
 std::string markdown_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
   std::string line = "|";
-  for (std::size_t i = 0; i < cells.size(); ++i) line += " " + padded(cells[i], widths[i], i == 0) + " |";
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    line.append(" ").append(padded(cells[i], widths[i], i == 0)).append(" |");
   return line + "\n";
 }
 
@@ -110,7 +111,7 @@ std::string table_markdown(const TextTable& table) {
   }
   std::string text = markdown_line(lines.front(), widths) + "|";
   for (std::size_t i = 0; i < widths.size(); ++i) {
-    text += i == 0 ? " " + std::string(widths[i], '-') + " |" : " " + std::string(widths[i] - 1, '-') + ": |";
+    text.append(" ").append(widths[i] - (i == 0 ? 0 : 1), '-').append(i == 0 ? " |" : ": |");
   }
   text += "\n";
   for (std::size_t i = 1; i < lines.size(); ++i) text += markdown_line(lines[i], widths);
