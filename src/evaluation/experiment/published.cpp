@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -24,13 +25,13 @@ namespace {
 }
 
 PublishedResults results_of(const std::string& where, const YAML::Node& node) {
-  static const std::set<std::string> known = {"system", "source", "dataset", "figure", "unit", "values"};
+  static const std::set<std::string> required = {"system", "source", "dataset", "figure", "unit", "values"};
   if (!node.IsMap()) fail(where, node.Mark(), "a system with its values is expected");
   for (const auto& member : node) {
     const std::string name = member.first.as<std::string>();
-    if (!known.contains(name)) fail(where, member.first.Mark(), "unknown member " + name);
+    if (!required.contains(name) && name != "frames") fail(where, member.first.Mark(), "unknown member " + name);
   }
-  for (const std::string& name : known) {
+  for (const std::string& name : required) {
     if (!node[name]) fail(where, node.Mark(), "the member " + name + " is missing");
   }
   PublishedResults results;
@@ -47,6 +48,7 @@ PublishedResults results_of(const std::string& where, const YAML::Node& node) {
       results.values[key] = value.second.as<double>();
     }
   }
+  for (const auto& frames : node["frames"]) results.frames[frames.first.as<std::string>()] = frames.second.as<double>();
   return results;
 }
 
@@ -72,12 +74,21 @@ bool contains_word(const std::string& name, const std::string& key) {
 
 }  // namespace
 
-std::optional<double> PublishedResults::value_of(const std::string& sequence) const {
+std::optional<double> PublishedResults::value_of(const std::string& sequence,
+                                                 const std::optional<double>& frames_of_ours) const {
   auto found = values.find(sequence);
   for (auto it = values.begin(); found == values.end() && it != values.end(); ++it) {
-    if (contains_word(sequence, it->first)) return it->second.value_or(std::numeric_limits<double>::infinity());
+    if (contains_word(sequence, it->first)) {
+      found = it;
+      break;
+    }
   }
   if (found == values.end()) return std::nullopt;
+  const auto known = frames.find(found->first);
+  if (frames_of_ours && known != frames.end() &&
+      std::abs(*frames_of_ours - known->second) > kSameFrames * known->second) {
+    return std::nullopt;
+  }
   return found->second.value_or(std::numeric_limits<double>::infinity());
 }
 

@@ -46,6 +46,16 @@ TEST_F(Published, NamesMayHaveMoreWordsButNoOtherLetters) {
   EXPECT_EQ(results.value_of("10"), std::nullopt);
 }
 
+TEST_F(Published, ExcerptsAreOtherSequences) {
+  const PublishedResults results = built_in_published().front();
+  EXPECT_EQ(results.dataset, "kitti");
+  EXPECT_TRUE(results.value_of("00", 4541).has_value());
+  EXPECT_TRUE(results.value_of("kitti_00", 4535).has_value());
+  EXPECT_FALSE(results.value_of("00", 1018).has_value());
+  EXPECT_FALSE(results.value_of("kitti_00", 200).has_value());
+  for (const auto& [name, value] : results.values) EXPECT_TRUE(results.frames.contains(name)) << name;
+}
+
 TEST_F(Published, ErrorsNameFileAndLine) {
   const std::string sound =
       "- system: A\n  source: B\n  dataset: kitti\n  figure: ate\n  unit: m\n  values: {x: 1, y: failed}\n";

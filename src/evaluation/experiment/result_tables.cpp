@@ -71,6 +71,16 @@ std::vector<Column> our_columns(const DatasetResults& dataset, const ErrorKind& 
   return columns;
 }
 
+std::optional<double> median_figure(const std::vector<const JobResult*>& jobs,
+                                    std::optional<double> RunFigures::*figure) {
+  std::vector<double> values;
+  for (const JobResult* result : jobs) {
+    if (result->run.*figure) values.push_back(*(result->run.*figure));
+  }
+  if (values.empty()) return std::nullopt;
+  return median_of(std::move(values));
+}
+
 std::vector<Column> published_columns(const DatasetResults& dataset, const ErrorKind& kind,
                                       const std::vector<PublishedResults>& published) {
   std::vector<Column> columns;
@@ -78,7 +88,8 @@ std::vector<Column> published_columns(const DatasetResults& dataset, const Error
     if (results.dataset != dataset.name || results.figure != kind.name) continue;
     Column column{results.system + " (published)", {}, {}};
     for (const std::string& sequence : dataset.sequences) {
-      const std::optional<double> value = results.value_of(sequence);
+      const auto jobs = select(dataset.jobs, {sequence, std::nullopt, std::nullopt});
+      const std::optional<double> value = results.value_of(sequence, median_figure(jobs, &RunFigures::frames));
       column.add(value, table_number(value));
     }
     if (!column.is_empty()) columns.push_back(std::move(column));
@@ -132,16 +143,6 @@ std::optional<double> mean_ms(const std::vector<const JobResult*>& jobs, const s
   }
   if (calls == 0) return std::nullopt;
   return total_ms / static_cast<double>(calls);
-}
-
-std::optional<double> median_figure(const std::vector<const JobResult*>& jobs,
-                                    std::optional<double> RunFigures::*figure) {
-  std::vector<double> values;
-  for (const JobResult* result : jobs) {
-    if (result->run.*figure) values.push_back(*(result->run.*figure));
-  }
-  if (values.empty()) return std::nullopt;
-  return median_of(std::move(values));
 }
 
 TableRow runtime_row(const std::string& variant, const std::vector<const JobResult*>& jobs) {
