@@ -53,20 +53,25 @@ std::size_t longest(const std::vector<std::string>& names) {
   return length;
 }
 
-Layout layout_of(const DatasetResults& dataset, const std::vector<RowGroup>& groups) {
+std::string title_of(const DatasetResults& dataset, const ErrorKind& kind) {
+  return std::string(kind.title) + " of each run" + (dataset.name.empty() ? "" : ", " + dataset.name);
+}
+
+Layout layout_of(const DatasetResults& dataset, const std::vector<RowGroup>& groups, std::size_t title_length) {
   Layout layout;
   int rows = 0;
   for (const RowGroup& group : groups) rows += group.rows;
   const double columns = static_cast<double>(dataset.sequences.size());
-  layout.cell_width = std::clamp(900 / std::max(columns, 1.0), 15.0, 46.0);
-  layout.cell_height = std::clamp(640 / std::max(rows, 1) * 1.0, 8.0, 24.0);
+  layout.cell_height = std::clamp(640.0 / std::max(rows, 1), 10.0, 24.0);
+  layout.cell_width = std::clamp(900 / std::max(columns, 1.0), 15.0, 2 * layout.cell_height);
   layout.left = 40 + kLetter * static_cast<double>(std::max(longest(dataset.variants), std::size_t{8})) + 68;
   layout.blocks_height = rows * layout.cell_height + kGroupGap * static_cast<double>(groups.size() - 1);
   const double name_width = kLetter * static_cast<double>(longest(dataset.sequences));
   layout.upright = name_width > layout.cell_width - 2;
   layout.labels_height = (layout.upright ? name_width : 14) + 34;
-  layout.width = std::max(layout.left + columns * layout.cell_width + kLegendWidth, 560.0);
-  layout.height = kTop + std::max(layout.blocks_height + layout.labels_height, kLeastLegendHeight + 130);
+  layout.width =
+      std::max(layout.left + columns * layout.cell_width + kLegendWidth, 48 + 10.6 * static_cast<double>(title_length));
+  layout.height = kTop + std::max(layout.blocks_height + layout.labels_height, kLeastLegendHeight + 70);
   return layout;
 }
 
@@ -181,10 +186,9 @@ std::string draw_legend(const DatasetResults& dataset, const Layout& layout, con
 
 std::string block_plot(const DatasetResults& dataset, const ErrorKind& kind) {
   const std::vector<RowGroup> groups = row_groups(dataset);
-  const Layout layout = layout_of(dataset, groups);
+  const std::string title = title_of(dataset, kind);
+  const Layout layout = layout_of(dataset, groups, title.size());
   const ErrorColours colours(collect_errors(dataset.jobs, kind).values);
-  const std::string title =
-      std::string(kind.title) + " of each run" + (dataset.name.empty() ? "" : ", " + dataset.name);
   return svg_document(layout.width, layout.height,
                       svg_text(24, 30, title, 18, "start", "font-weight=\"bold\"") +
                           svg_text(24, 52, "one square a run; dark is good", 13, "start", "fill=\"#555555\"") +
