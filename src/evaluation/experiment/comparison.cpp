@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -20,7 +21,7 @@ constexpr double kSameRatio = 1.01;  ///< Smaller differences are called the sam
 /// Errors of a run in both experiments; failed ones are infinite.
 struct ErrorPair {
   double a = 0, b = 0;
-  auto operator<=>(const ErrorPair&) const = default;
+  bool operator<(const ErrorPair& other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
 };
 
 using Group = std::tuple<std::string, JobMetric, std::string, std::string>;  ///< Data set, metric, sequence, variant.
@@ -106,18 +107,13 @@ std::string percent(double ratio) {
 
 std::string verdict(const SequenceComparison& sequence) {
   const bool a_failed = std::isinf(sequence.median_a), b_failed = std::isinf(sequence.median_b);
-  std::string text = "same";
   if (a_failed && b_failed) return "fails in both";
-  if (b_failed) {
-    text = "worse";
-  } else if (a_failed) {
-    text = "better";
-  } else if (!sequence.ratio || *sequence.ratio > kSameRatio) {
-    text = "worse";
-  } else if (*sequence.ratio < 1 / kSameRatio) {
-    text = "better";
-  }
-  return text != "same" && sequence.p < 0.05 ? text + " (p < 0.05)" : text;
+  // Without a ratio A was perfect and B is not.
+  const double ratio = sequence.ratio.value_or(std::numeric_limits<double>::infinity());
+  const bool is_worse = b_failed || (!a_failed && ratio > kSameRatio);
+  const bool is_better = a_failed || ratio < 1 / kSameRatio;
+  if (!is_worse && !is_better) return "same";
+  return std::string(is_worse ? "worse" : "better") + (sequence.p < 0.05 ? " (p < 0.05)" : "");
 }
 
 std::string p_text(double p) {

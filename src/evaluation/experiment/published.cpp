@@ -25,13 +25,13 @@ namespace {
 }
 
 PublishedResults results_of(const std::string& where, const YAML::Node& node) {
-  static const std::set<std::string> required = {"system", "source", "dataset", "figure", "unit", "values"};
+  static const std::set<std::string> kRequired = {"system", "source", "dataset", "figure", "unit", "values"};
   if (!node.IsMap()) fail(where, node.Mark(), "a system with its values is expected");
   for (const auto& member : node) {
     const std::string name = member.first.as<std::string>();
-    if (!required.contains(name) && name != "frames") fail(where, member.first.Mark(), "unknown member " + name);
+    if (!kRequired.contains(name) && name != "frames") fail(where, member.first.Mark(), "unknown member " + name);
   }
-  for (const std::string& name : required) {
+  for (const std::string& name : kRequired) {
     if (!node[name]) fail(where, node.Mark(), "the member " + name + " is missing");
   }
   PublishedResults results;

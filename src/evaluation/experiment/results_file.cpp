@@ -96,15 +96,15 @@ std::vector<JobResult> read_json(const fs::path& path) {
 
 /// A row as JSON, so that both kinds of files are read in one way.
 Json json_of(const CsvRow& head, const CsvRow& row) {
-  static const std::set<std::string_view> texts = {"id",       "dataset", "sequence", "variant",
-                                                   "strategy", "metric",  "state",    "reason"};
+  static const std::set<std::string_view> kTexts = {"id",       "dataset", "sequence", "variant",
+                                                    "strategy", "metric",  "state",    "reason"};
   if (row.size() != head.size()) {
     throw Error("has " + std::to_string(row.size()) + " fields, the head line " + std::to_string(head.size()));
   }
   Json json = Json::object();
   for (std::size_t i = 0; i < head.size(); ++i) {
     double value = 0;
-    if (texts.contains(head[i])) {
+    if (kTexts.contains(head[i])) {
       json[head[i]] = row[i];
     } else if (head[i] == "loops" || head[i] == "reverse") {
       json[head[i]] = row[i] == "yes";

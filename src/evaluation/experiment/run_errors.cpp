@@ -175,7 +175,7 @@ TrajectoryErrors measure_trajectory(const Trajectory& estimate, const Trajectory
 RunErrors measure_run(const fs::path& folder, const ExperimentJob& job, const GroundTruth& truth, bool has_odometry) {
   const Json key = key_of(folder, job, truth, has_odometry);
   if (std::optional<RunErrors> kept = read_kept(folder / kFileName, key)) return *kept;
-  const RunErrors run = measure(folder, job, truth, has_odometry);
+  RunErrors run = measure(folder, job, truth, has_odometry);
   keep(folder / kFileName, key, run);
   return run;
 }
