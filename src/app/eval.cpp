@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct EvalArguments {
   fs::path estimate, truth;
   std::optional<fs::path> times, json, picture;
-  std::string align = "sim3", title;
+  std::string align = "sim3", metric = "all", title;
   EvaluationOptions options;
 };
 
@@ -33,6 +33,11 @@ void add_options(CLI::App& command, EvalArguments& a) {
       ->required();
   command.add_option("--align", a.align, "Alignment of the estimate before it is compared")
       ->check(CLI::IsMember({"se3", "sim3", "scale", "none"}))
+      ->capture_default_str();
+  command
+      .add_option("--metric", a.metric,
+                  "Figures to print; tum-mono: drift from the start to the end segment, kitti: drift per distance")
+      ->check(CLI::IsMember({"all", "ate", "tum-mono", "kitti"}))
       ->capture_default_str();
   command.add_option("--max-diff", a.options.max_time_difference, "Largest time difference of paired poses [s]")
       ->check(CLI::NonNegativeNumber)
@@ -71,10 +76,12 @@ void run_eval(const EvalArguments& a) {
   options.alignment = parse_alignment_mode(a.align);
   options.pair_by_index = must_pair_by_index(estimate, truth, a);
   const EvaluationResult result = evaluate_trajectory(estimate.poses, truth.poses, options);
+  const ReportMetric metric = parse_report_metric(a.metric);
+  require_metric(result, metric);
 
   std::cout << "estimate      " << a.estimate.string() << " (" << estimate.description << ")\n"
             << "ground truth  " << a.truth.string() << " (" << truth.description << ")\n"
-            << result_table(result);
+            << result_table(result, metric);
   if (a.json) write_json(*a.json, result);
   if (a.picture) {
     PictureOptions picture;

@@ -5,6 +5,8 @@
 
 #include "app/command_line.h"
 #include "app/eval.h"
+#include "app/experiment_compare.h"
+#include "app/experiment_summarize.h"
 #include "app/run.h"
 #include "app/versions.h"
 #include "app/vocab.h"
@@ -19,6 +21,10 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   ldso::add_run_command(app, exit_code);
   ldso::add_eval_command(app);
+  CLI::App* experiment = app.add_subcommand("experiment", "Results of many runs");
+  experiment->require_subcommand(1);
+  ldso::add_summarize_command(*experiment, exit_code);
+  ldso::add_compare_command(*experiment, exit_code);
   ldso::add_vocab_command(app);
 #ifdef LDSO_HAS_SIMULATE
   ldso::add_simulate_command(app);

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "ldso/error.h"
+
 namespace ldso {
 namespace {
 
@@ -35,16 +37,24 @@ std::string tum_mono_rows(const TumMonoError& e) {
          format("%-22s %11.6f m\n", "TUM-mono end rmse", e.end_rmse);
 }
 
-std::string drift_rows(const EvaluationResult& result) {
+std::string scale_rows(const EvaluationResult& result) {
+  if (!result.scale_drift) return "";
+  return format("%-22s %11.6f     (last third / first third of the path: %.6f)\n", "scale drift",
+                result.scale_drift->drift, result.scale_drift->ratio);
+}
+
+std::string kitti_rows(const KittiDrift& drift) {
+  return format("%-22s %11.6f %%   (%zu paths of 100..800 m)\n", "KITTI t_rel", drift.translation_percent,
+                drift.segments) +
+         format("%-22s %11.6f deg/m\n", "KITTI r_rel", drift.rotation_deg_per_m);
+}
+
+std::string kitti_length_rows(const KittiDrift& drift) {
   std::string rows;
-  if (result.scale_drift) {
-    rows += format("%-22s %11.6f     (last third / first third of the path: %.6f)\n", "scale drift",
-                   result.scale_drift->drift, result.scale_drift->ratio);
-  }
-  if (result.kitti_drift) {
-    rows += format("%-22s %11.6f %%   (%zu paths of 100..800 m)\n", "KITTI t_rel",
-                   result.kitti_drift->translation_percent, result.kitti_drift->segments);
-    rows += format("%-22s %11.6f deg/m\n", "KITTI r_rel", result.kitti_drift->rotation_deg_per_m);
+  for (std::size_t i = 0; i < kKittiLengths.size(); ++i) {
+    if (!std::isfinite(drift.translation_percent_of_length[i])) continue;
+    rows += format("KITTI %3.0f m            %11.6f %%   %11.6f deg/m\n", kKittiLengths[i],
+                   drift.translation_percent_of_length[i], drift.rotation_deg_per_m_of_length[i]);
   }
   return rows;
 }
@@ -53,6 +63,14 @@ std::string relative_rows(const EvaluationResult& result) {
   if (!result.relative_translation) return "";
   return statistics_row("RPE translation [m]", *result.relative_translation) +
          statistics_row("RPE rotation [deg]", *result.relative_rotation_deg);
+}
+
+std::string absolute_rows(const EvaluationResult& result) {
+  std::string rows = format("%-22s %11s %11s %11s %11s %11s %11s\n", "", "rmse", "mean", "median", "std", "min", "max");
+  rows += statistics_row("ATE [m]", result.absolute) + relative_rows(result);
+  // Where the path is known in pieces only, its length means nothing.
+  if (!result.tum_mono) rows += format("%-22s %11.6f %%\n", "ATE of path", result.ate_percent_of_path());
+  return rows;
 }
 
 Json json_of(const Statistics& s) {
@@ -99,20 +117,45 @@ Json json_or_null(const std::optional<T>& value) {
 
 }  // namespace
 
-std::string result_table(const EvaluationResult& result) {
+ReportMetric parse_report_metric(const std::string& name) {
+  if (name == "all") return ReportMetric::kAll;
+  if (name == "ate") return ReportMetric::kAte;
+  if (name == "tum-mono") return ReportMetric::kTumMono;
+  if (name == "kitti") return ReportMetric::kKitti;
+  throw Error("metric " + name, "there is no such metric", "allowed are all, ate, tum-mono and kitti");
+}
+
+void require_metric(const EvaluationResult& result, ReportMetric metric) {
+  if (metric == ReportMetric::kTumMono && !result.truth_of_both_ends) {
+    throw Error("metric tum-mono", "the ground truth has no start and end segment with a gap between them",
+                "use --metric ate for ground truth of the whole way");
+  }
+  if (metric == ReportMetric::kTumMono && !result.tum_mono) {
+    throw Error("metric tum-mono",
+                "the estimate has fewer than 3 poses with ground truth in one of the two segments, start and end",
+                "it has to reach both ends of the sequence");
+  }
+  if (metric == ReportMetric::kKitti && !result.kitti_drift) {
+    throw Error("metric kitti",
+                result.truth_of_both_ends ? "the ground truth is of both ends only"
+                                          : "the path is shorter than the shortest sub-path, 100 m",
+                "use --metric " + std::string(result.truth_of_both_ends ? "tum-mono" : "ate"));
+  }
+}
+
+std::string result_table(const EvaluationResult& result, ReportMetric metric) {
+  const bool all = metric == ReportMetric::kAll;
   std::string table;
   table += format("%-22s %11zu     (of %zu estimated and %zu true poses)\n", "pairs", result.pairs.size(),
                   result.estimate_poses, result.truth_poses);
   table += format("%-22s %11.6f m\n", "path", result.path_length);
   table += format("%-22s %11s     (scale %.6f)\n", "alignment", to_string(result.alignment).c_str(),
                   result.S_truth_estimate.scale());
-  table += format("%-22s %11s %11s %11s %11s %11s %11s\n", "", "rmse", "mean", "median", "std", "min", "max");
-  table += statistics_row("ATE [m]", result.absolute);
-  table += relative_rows(result);
-  // Where the path is known in pieces only, its length means nothing.
-  if (!result.tum_mono) table += format("%-22s %11.6f %%\n", "ATE of path", result.ate_percent_of_path());
-  table += drift_rows(result);
-  if (result.tum_mono) table += tum_mono_rows(*result.tum_mono);
+  if (all || metric == ReportMetric::kAte) table += absolute_rows(result);
+  if (all) table += scale_rows(result);
+  if ((all || metric == ReportMetric::kKitti) && result.kitti_drift) table += kitti_rows(*result.kitti_drift);
+  if (metric == ReportMetric::kKitti && result.kitti_drift) table += kitti_length_rows(*result.kitti_drift);
+  if ((all || metric == ReportMetric::kTumMono) && result.tum_mono) table += tum_mono_rows(*result.tum_mono);
   return table;
 }
 

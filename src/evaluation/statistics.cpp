@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ldso/error.h"
+#include "util/median.h"
 
 namespace ldso {
-namespace {
-
-double median_of_sorted(const std::vector<double>& values) {
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-}  // namespace
 
 Statistics summarize(std::vector<double> values) {
   if (values.empty()) throw Error("statistics", "there are no errors to sum up", "");
@@ -34,10 +28,10 @@ Statistics summarize(std::vector<double> values) {
   double squared_deviations = 0;
   for (const double value : values) squared_deviations += (value - result.mean) * (value - result.mean);
   result.stddev = std::sqrt(squared_deviations / n);
-  std::sort(values.begin(), values.end());
-  result.median = median_of_sorted(values);
-  result.min = values.front();
-  result.max = values.back();
+  const auto [min, max] = std::minmax_element(values.begin(), values.end());
+  result.min = *min;
+  result.max = *max;
+  result.median = median_of(std::move(values));
   return result;
 }
 

@@ -78,6 +78,45 @@ std::vector<double> round_ticks(const Range& range, double wanted) {
   return ticks;
 }
 
+std::vector<Tick> number_ticks(const Range& range, double wanted, bool whole) {
+  const std::vector<double> positions = round_ticks(range, whole ? std::min(wanted, range.length()) : wanted);
+  std::vector<Tick> ticks;
+  for (const double position : positions) ticks.push_back({position, tick_text(position, tick_step(positions))});
+  return ticks;
+}
+
+std::vector<Tick> log_ticks(const Range& exponents) {
+  constexpr double kTolerance = 1e-9;
+  std::vector<double> mantissas = {1};
+  if (exponents.length() <= 3) mantissas = {1, 2, 5};
+  std::vector<Tick> ticks;
+  for (double power = std::floor(exponents.min); power <= exponents.max + kTolerance; ++power) {
+    for (const double mantissa : mantissas) {
+      const double position = power + std::log10(mantissa);
+      if (position < exponents.min - kTolerance || position > exponents.max + kTolerance) continue;
+      char text[64];
+      std::snprintf(text, sizeof(text), "%.6g", mantissa * std::pow(10.0, power));
+      ticks.push_back({position, text});
+    }
+  }
+  return ticks;
+}
+
+std::string svg_document(double width, double height, const std::string& content) {
+  const std::string size = px(width) + "\" height=\"" + px(height);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " + px(width) + " " +
+         px(height) +
+         "\" font-family=\"Helvetica, Arial, DejaVu Sans, sans-serif\" fill=\"#222222\">\n"
+         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
+         content + "</svg>\n";
+}
+
+std::string svg_line_sample(double x, double y, const LineStyle& style) {
+  const std::string dash = style.dash.empty() ? "" : " stroke-dasharray=\"" + style.dash + "\"";
+  return "<line x1=\"" + px(x) + "\" y1=\"" + px(y) + "\" x2=\"" + px(x + 30) + "\" y2=\"" + px(y) + "\" stroke=\"" +
+         style.colour + "\" stroke-width=\"" + px(style.width) + "\"" + dash + "/>\n";
+}
+
 std::string svg_text(double x, double y, const std::string& text, double size, const std::string& anchor,
                      const std::string& extra) {
   return "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" font-size=\"" + px(size) + "\" text-anchor=\"" + anchor +
@@ -99,27 +138,30 @@ Eigen::Vector2d SvgChart::to_pixel(const Eigen::Vector2d& data) const {
           box_.y + box_.height * (y_.max - data.y()) / y_.length()};
 }
 
-void SvgChart::add_x_ticks() {
-  const std::vector<double> ticks = round_ticks(x_, tick_count(box_.width));
-  for (const double tick : ticks) {
-    const double x = to_pixel({tick, y_.min}).x();
+void SvgChart::add_x_ticks(const std::vector<Tick>& ticks) {
+  for (const Tick& tick : ticks) {
+    const double x = to_pixel({tick.position, y_.min}).x();
     svg_ += svg_line(x, box_.y, x, box_.y + box_.height, "#e4e4e4");
-    svg_ += svg_text(x, box_.y + box_.height + 17, tick_text(tick, tick_step(ticks)), kTickSize, "middle");
+    svg_ += svg_text(x, box_.y + box_.height + 17, tick.label, kTickSize, "middle");
   }
 }
 
-void SvgChart::add_y_ticks() {
-  const std::vector<double> ticks = round_ticks(y_, tick_count(box_.height));
-  for (const double tick : ticks) {
-    const double y = to_pixel({x_.min, tick}).y();
+void SvgChart::add_y_ticks(const std::vector<Tick>& ticks) {
+  for (const Tick& tick : ticks) {
+    const double y = to_pixel({x_.min, tick.position}).y();
     svg_ += svg_line(box_.x, y, box_.x + box_.width, y, "#e4e4e4");
-    svg_ += svg_text(box_.x - 7, y + 4, tick_text(tick, tick_step(ticks)), kTickSize, "end");
+    svg_ += svg_text(box_.x - 7, y + 4, tick.label, kTickSize, "end");
   }
 }
 
 void SvgChart::add_axes(const std::string& x_label, const std::string& y_label) {
-  add_x_ticks();
-  add_y_ticks();
+  add_axes(x_label, y_label, number_ticks(x_, tick_count(box_.width)), number_ticks(y_, tick_count(box_.height)));
+}
+
+void SvgChart::add_axes(const std::string& x_label, const std::string& y_label, const std::vector<Tick>& x_ticks,
+                        const std::vector<Tick>& y_ticks) {
+  add_x_ticks(x_ticks);
+  add_y_ticks(y_ticks);
   svg_ += "<rect x=\"" + px(box_.x) + "\" y=\"" + px(box_.y) + "\" width=\"" + px(box_.width) + "\" height=\"" +
           px(box_.height) + "\" fill=\"none\" stroke=\"#555555\"/>\n";
   svg_ += svg_text(box_.x + 0.5 * box_.width, box_.y + box_.height + 37, x_label, kLabelSize, "middle");

@@ -32,6 +32,19 @@ std::string xml_escape(const std::string& text);
 /// Round tick positions inside the range: steps of 1, 2 or 5 times a power of ten, about `wanted` of them.
 std::vector<double> round_ticks(const Range& range, double wanted);
 
+/// Where an axis is marked, and by which text.
+struct Tick {
+  double position = 0;  ///< In data.
+  std::string label;
+};
+
+/// round_ticks() with their numbers; only whole numbers if `whole`.
+std::vector<Tick> number_ticks(const Range& range, double wanted, bool whole = false);
+
+/// Ticks at 1, 2 and 5 times the powers of ten (the latter alone over more than three decades) for an axis of decimal
+/// logarithms; the labels are the numbers themselves.
+std::vector<Tick> log_ticks(const Range& exponents);
+
 /// Appends SVG elements to a text; y grows upwards in data, downwards in SVG.
 class SvgChart {
  public:
@@ -41,6 +54,8 @@ class SvgChart {
   static void make_equal_scale(const SvgBox& box, Range& x, Range& y);
 
   void add_axes(const std::string& x_label, const std::string& y_label);
+  void add_axes(const std::string& x_label, const std::string& y_label, const std::vector<Tick>& x_ticks,
+                const std::vector<Tick>& y_ticks);
   /// Points closer than half a pixel to the last drawn one are left out; the last one is kept.
   void add_line(const Polyline& line, const LineStyle& style);
   void add_circle(const Eigen::Vector2d& centre, const std::string& colour);
@@ -49,8 +64,8 @@ class SvgChart {
 
  private:
   Eigen::Vector2d to_pixel(const Eigen::Vector2d& data) const;
-  void add_x_ticks();
-  void add_y_ticks();
+  void add_x_ticks(const std::vector<Tick>& ticks);
+  void add_y_ticks(const std::vector<Tick>& ticks);
 
   SvgBox box_;
   Range x_, y_;
@@ -60,5 +75,11 @@ class SvgChart {
 /// One `<text>` element. `anchor`: start, middle or end; `extra`: further attributes.
 std::string svg_text(double x, double y, const std::string& text, double size, const std::string& anchor = "start",
                      const std::string& extra = "");
+
+/// A whole picture on white [px].
+std::string svg_document(double width, double height, const std::string& content);
+
+/// A sample of a line style, for legends: 30 px to the right of (x, y).
+std::string svg_line_sample(double x, double y, const LineStyle& style);
 
 }  // namespace ldso

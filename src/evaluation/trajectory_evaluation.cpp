@@ -105,6 +105,7 @@ EvaluationResult evaluate_trajectory(const Trajectory& estimate, const Trajector
   result.absolute_errors = absolute_errors(estimate, truth, result.pairs, result.S_truth_estimate);
   result.absolute = summarize(result.absolute_errors);
   const std::optional<double> split_time = find_segment_split(truth);
+  result.truth_of_both_ends = split_time.has_value();
   // Where the truth is missing for most of the way there is no path to follow, and in TUM-mono no true orientation.
   if (!split_time) measure_along_path(estimate, truth, result);
   if (split_time && reaches_both_sides(truth, result.pairs, *split_time)) {

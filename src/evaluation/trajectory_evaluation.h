@@ -39,6 +39,7 @@ struct EvaluationResult {
 
   std::optional<ScaleDrift> scale_drift;
   std::optional<KittiDrift> kitti_drift;
+  bool truth_of_both_ends = false;       ///< The ground truth has a start and an end segment and nothing between.
   std::optional<TumMonoError> tum_mono;  ///< Only if the ground truth has a start and an end segment and the
                                          ///< estimate reaches both.
 

@@ -131,5 +131,48 @@ TEST(Report, TableAndJsonCarryTheFigures) {
   }
 }
 
+std::string problem_of(const EvaluationResult& result, ReportMetric metric) {
+  try {
+    require_metric(result, metric);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Report, OneMetricAlone) {
+  const Trajectory truth = straight_trajectory(300);
+  const EvaluationResult result = evaluate_trajectory(shaken(truth, 0.2), truth);
+  const std::string kitti = result_table(result, ReportMetric::kKitti), ate = result_table(result, ReportMetric::kAte);
+  for (const char* name : {"\nKITTI t_rel", "\nKITTI r_rel", "\nKITTI 100 m", "\nKITTI 200 m"}) {
+    EXPECT_NE(kitti.find(name), std::string::npos) << name << " is not in\n" << kitti;
+  }
+  EXPECT_EQ(kitti.find("KITTI 300 m"), std::string::npos);
+  EXPECT_EQ(kitti.find("ATE"), std::string::npos);
+  EXPECT_NE(ate.find("\nATE [m]"), std::string::npos);
+  EXPECT_EQ(ate.find("KITTI"), std::string::npos);
+  EXPECT_EQ(problem_of(result, ReportMetric::kKitti), "");
+  EXPECT_NE(problem_of(result, ReportMetric::kTumMono).find("no start and end segment"), std::string::npos);
+  EXPECT_EQ(parse_report_metric("tum-mono"), ReportMetric::kTumMono);
+  EXPECT_THROW(parse_report_metric("rpe"), Error);
+}
+
+TEST(Report, TumMonoAlone) {
+  const Trajectory estimate = winding_trajectory(90);
+  Trajectory truth = transformed(some_similarity(), estimate);
+  truth.erase(truth.begin() + 20, truth.end() - 20);
+  const EvaluationResult result = evaluate_trajectory(estimate, truth);
+  EXPECT_EQ(problem_of(result, ReportMetric::kTumMono), "");
+  EXPECT_NE(problem_of(result, ReportMetric::kKitti).find("both ends only"), std::string::npos);
+  const std::string table = result_table(result, ReportMetric::kTumMono);
+  for (const char* name : {"\nTUM-mono e_align", "\nTUM-mono e_t", "\nTUM-mono e_r", "\nTUM-mono e_s"}) {
+    EXPECT_NE(table.find(name), std::string::npos) << name << " is not in\n" << table;
+  }
+  const EvaluationResult lost = evaluate_trajectory(Trajectory(estimate.begin(), estimate.begin() + 40), truth);
+  EXPECT_NE(problem_of(lost, ReportMetric::kTumMono).find("reach both ends"), std::string::npos);
+  const EvaluationResult brief = evaluate_trajectory(estimate, transformed(some_similarity(), estimate));
+  EXPECT_NE(problem_of(brief, ReportMetric::kKitti).find("100 m"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ldso

@@ -18,6 +18,10 @@ namespace {
 // Okabe and Ito's palette: distinct for all common kinds of colour blindness; dashes and widths differ as well.
 constexpr const char* kEstimateColour = "#0072B2";
 constexpr const char* kTruthColour = "#E69F00";
+constexpr const char* kBeforeColour = "#CC79A7";
+const LineStyle kTruthStyle{kTruthColour, 4.0, 1.0, ""};
+const LineStyle kEstimateStyle{kEstimateColour, 1.6, 1.0, ""};
+const LineStyle kBeforeStyle{kBeforeColour, 1.6, 1.0, "6 3"};
 
 constexpr double kWidth = 900;
 constexpr double kLeft = 90, kRight = 25, kTop = 84;
@@ -59,16 +63,20 @@ Pieces pieces_of(const Trajectory& trajectory, const Sim3d& S) {
   return pieces;
 }
 
-/// The part of the truth that the estimate covers, and a little around it where tracking may have been missing: an
+/// The part of the truth that the estimates cover, and a little around it where tracking may have been missing: an
 /// estimate of an excerpt is not to drown in the whole.
-Trajectory truth_near(const Trajectory& truth, const Trajectory& estimate) {
-  const auto [first, last] =
-      std::minmax_element(estimate.begin(), estimate.end(),
-                          [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
-  const double margin = kTruthMargin * (last->timestamp - first->timestamp);
+Trajectory truth_near(const Trajectory& truth, const std::vector<const Trajectory*>& estimates) {
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const Trajectory* estimate : estimates) {
+    for (const StampedPose& pose : *estimate) {
+      first = std::min(first, pose.timestamp);
+      last = std::max(last, pose.timestamp);
+    }
+  }
+  const double margin = kTruthMargin * (last - first);
   Trajectory near;
   std::copy_if(truth.begin(), truth.end(), std::back_inserter(near), [&](const StampedPose& pose) {
-    return pose.timestamp >= first->timestamp - margin && pose.timestamp <= last->timestamp + margin;
+    return pose.timestamp >= first - margin && pose.timestamp <= last + margin;
   });
   return near;
 }
@@ -114,27 +122,41 @@ Polyline project(const Points& points, const Axes& axes) {
   return line;
 }
 
+/// One estimate: its path, and where it starts and ends in the order in which it was made.
+struct Track {
+  Pieces pieces;
+  Eigen::Vector3d start, end;
+  LineStyle style;
+};
+
+Track track_of(const Trajectory& estimate, const Sim3d& S, const LineStyle& style) {
+  return {pieces_of(estimate, S), S * estimate.front().T_world_camera.translation(),
+          S * estimate.back().T_world_camera.translation(), style};
+}
+
 struct Map {
-  Pieces truth, estimate;
-  Eigen::Vector3d start, end;  ///< Of the estimate, in the order in which it was made.
+  Pieces truth;
+  std::vector<Track> tracks;  ///< In the order in which they are drawn.
   std::string unit;
 };
 
 std::string draw_map(const Map& map, const SvgBox& box) {
   Bounds truth_bounds, bounds;
-  truth_bounds.extend(map.truth.empty() ? map.estimate : map.truth);
+  truth_bounds.extend(map.truth.empty() ? map.tracks.back().pieces : map.truth);
   bounds.extend(map.truth);
-  bounds.extend(map.estimate);
+  for (const Track& track : map.tracks) bounds.extend(track.pieces);
   const Axes axes = main_axes(truth_bounds);
   Range x = padded(bounds.min[axes.right], bounds.max[axes.right]);
   Range y = padded(bounds.min[axes.up], bounds.max[axes.up]);
   SvgChart::make_equal_scale(box, x, y);
   SvgChart chart(box, x, y);
   chart.add_axes(axis_label(axes.right, map.unit), axis_label(axes.up, map.unit));
-  for (const Points& piece : map.truth) chart.add_line(project(piece, axes), {kTruthColour, 4.0, 1.0, ""});
-  for (const Points& piece : map.estimate) chart.add_line(project(piece, axes), {kEstimateColour, 1.6, 1.0, ""});
-  chart.add_circle({map.start[axes.right], map.start[axes.up]}, kEstimateColour);
-  chart.add_square({map.end[axes.right], map.end[axes.up]}, kEstimateColour);
+  for (const Points& piece : map.truth) chart.add_line(project(piece, axes), kTruthStyle);
+  for (const Track& track : map.tracks) {
+    for (const Points& piece : track.pieces) chart.add_line(project(piece, axes), track.style);
+    chart.add_circle({track.start[axes.right], track.start[axes.up]}, track.style.colour);
+    chart.add_square({track.end[axes.right], track.end[axes.up]}, track.style.colour);
+  }
   return chart.svg();
 }
 
@@ -156,28 +178,43 @@ std::vector<Polyline> error_lines(const Trajectory& estimate, const EvaluationRe
   return lines;
 }
 
-std::string draw_error_panel(const Trajectory& estimate, const EvaluationResult& result, const SvgBox& box,
-                             bool has_times) {
-  const std::vector<Polyline> lines = error_lines(estimate, result, has_times);
-  Range x{lines.front().front().x(), lines.back().back().x()};
+/// The errors of one estimate for the panel.
+struct ErrorTrack {
+  std::vector<Polyline> lines;
+  double largest = 0;
+  LineStyle style;
+};
+
+ErrorTrack error_track(const Trajectory& estimate, const EvaluationResult& result, bool has_times,
+                       const LineStyle& style) {
+  return {error_lines(estimate, result, has_times), result.absolute.max, {style.colour, 1.3, 1.0, style.dash}};
+}
+
+std::string draw_error_panel(const std::vector<ErrorTrack>& tracks, const SvgBox& box, bool has_times) {
+  Range x{tracks.front().lines.front().front().x(), tracks.front().lines.back().back().x()};
+  double largest = 0;
+  for (const ErrorTrack& track : tracks) {
+    x.min = std::min(x.min, track.lines.front().front().x());
+    x.max = std::max(x.max, track.lines.back().back().x());
+    largest = std::max(largest, track.largest);
+  }
   if (!(x.length() > 0)) x.max = x.min + 1;
-  const double top = result.absolute.max > 0 ? 1.05 * result.absolute.max : 1.0;
-  SvgChart chart(box, x, {0, top});
+  SvgChart chart(box, x, {0, largest > 0 ? 1.05 * largest : 1.0});
   chart.add_axes(has_times ? "time since the first pose [s]" : "pose", "error [m]");
-  for (const Polyline& line : lines) chart.add_line(line, {kEstimateColour, 1.3, 1.0, ""});
+  for (const ErrorTrack& track : tracks) {
+    for (const Polyline& line : track.lines) chart.add_line(line, track.style);
+  }
   return chart.svg();
 }
 
-std::string legend_line(double x, double y, const char* colour, double width) {
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%.1f\"/>\n", x, y,
-                x + 30, y, colour, width);
-  return text;
-}
+/// A line of the legend.
+struct LegendEntry {
+  std::string text;
+  LineStyle style;
+};
 
 /// One row of labelled samples above the map.
-std::string draw_legend(const PictureOptions& options, bool with_truth) {
+std::string draw_legend(const std::vector<LegendEntry>& entries) {
   constexpr double kY = 64, kLetter = 7.6;
   double x = kLeft;
   std::string svg;
@@ -185,19 +222,17 @@ std::string draw_legend(const PictureOptions& options, bool with_truth) {
     svg += svg_text(x, kY + 5, text, 14);
     x += kLetter * static_cast<double>(text.size()) + 24;
   };
-  const auto add_line = [&](const std::string& text, const char* colour, double width) {
-    svg += legend_line(x, kY, colour, width);
+  for (const LegendEntry& entry : entries) {
+    svg += svg_line_sample(x, kY, entry.style);
     x += 37;
-    add_text(text);
-  };
-  if (with_truth) add_line(options.truth_label, kTruthColour, 4.0);
-  add_line(options.estimate_label, kEstimateColour, 1.6);
+    add_text(entry.text);
+  }
   SvgChart marks({0, 0, 1, 1}, {0, 1}, {0, 1});
-  marks.add_circle({x + 6, 1 - kY}, kEstimateColour);
+  marks.add_circle({x + 6, 1 - kY}, entries.back().style.colour);
   const double start_x = x + 20;
   x = start_x;
   add_text("start");
-  marks.add_square({x + 6, 1 - kY}, kEstimateColour);
+  marks.add_square({x + 6, 1 - kY}, entries.back().style.colour);
   x += 20;
   add_text("end");
   return svg + marks.svg();
@@ -205,14 +240,22 @@ std::string draw_legend(const PictureOptions& options, bool with_truth) {
 
 std::string picture_frame(double height, const std::string& title, const std::string& subtitle,
                           const std::string& content) {
-  char head[512];
-  std::snprintf(head, sizeof(head),
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-                "font-family=\"Helvetica, Arial, DejaVu Sans, sans-serif\" fill=\"#222222\">\n"
-                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-                kWidth, height, kWidth, height);
-  return head + svg_text(kLeft, 28, title, 18, "start", "font-weight=\"bold\"") +
-         svg_text(kLeft, 48, subtitle, 13, "start", "fill=\"#555555\"") + content + "</svg>\n";
+  return svg_document(kWidth, height,
+                      svg_text(kLeft, 28, title, 18, "start", "font-weight=\"bold\"") +
+                          svg_text(kLeft, 48, subtitle, 13, "start", "fill=\"#555555\"") + content);
+}
+
+/// Legend, map and, if there are any, errors over time.
+std::string picture_of(const Map& map, const std::vector<ErrorTrack>& errors, const std::vector<LegendEntry>& legend,
+                       const std::string& title, const std::string& subtitle, bool has_times) {
+  const double width = kWidth - kLeft - kRight;
+  std::string content = draw_legend(legend) + draw_map(map, {kLeft, kTop, width, kMapHeight});
+  double height = kTop + kMapHeight + kAxisRoom;
+  if (!errors.empty()) {
+    content += draw_error_panel(errors, {kLeft, height + kPanelGap, width, kPanelHeight}, has_times);
+    height += kPanelGap + kPanelHeight + kAxisRoom;
+  }
+  return picture_frame(height, title, subtitle, content);
 }
 
 std::string error_title(const EvaluationResult& result, const std::string& name) {
@@ -247,6 +290,21 @@ std::string error_subtitle(const EvaluationResult& result) {
   return subtitle;
 }
 
+std::string loop_subtitle(const EvaluationResult& before, const EvaluationResult& after) {
+  const bool at_start = before.tum_mono && after.tum_mono;
+  char text[256];
+  if (at_start) {
+    std::snprintf(text, sizeof(text),
+                  "e_align %.4g m before, %.4g m after loop closing; both aligned to the start segment",
+                  before.tum_mono->e_align, after.tum_mono->e_align);
+  } else {
+    std::snprintf(text, sizeof(text),
+                  "ATE %.4g m before, %.4g m after loop closing; both aligned over the whole (Sim(3))",
+                  before.absolute.rmse, after.absolute.rmse);
+  }
+  return text;
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
@@ -258,33 +316,43 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 std::string trajectory_picture(const Trajectory& estimate, const Trajectory& truth, const EvaluationResult& result,
                                const PictureOptions& options) {
-  const Sim3d& S = result.S_truth_estimate;
-  const Map map{pieces_of(truth_near(truth, estimate), Sim3d()), pieces_of(estimate, S),
-                S * estimate.front().T_world_camera.translation(), S * estimate.back().T_world_camera.translation(),
+  const Map map{pieces_of(truth_near(truth, {&estimate}), Sim3d()),
+                {track_of(estimate, result.S_truth_estimate, kEstimateStyle)},
                 "m"};
-  const double width = kWidth - kLeft - kRight;
-  std::string content = draw_legend(options, true) + draw_map(map, {kLeft, kTop, width, kMapHeight});
-  double height = kTop + kMapHeight + kAxisRoom;
-  if (options.error_panel) {
-    const SvgBox box{kLeft, height + kPanelGap, width, kPanelHeight};
-    content += draw_error_panel(estimate, result, box, options.has_times);
-    height += kPanelGap + kPanelHeight + kAxisRoom;
-  }
-  return picture_frame(height, error_title(result, options.title), error_subtitle(result), content);
+  std::vector<ErrorTrack> errors;
+  if (options.error_panel) errors.push_back(error_track(estimate, result, options.has_times, kEstimateStyle));
+  return picture_of(map, errors, {{options.truth_label, kTruthStyle}, {options.estimate_label, kEstimateStyle}},
+                    error_title(result, options.title), error_subtitle(result), options.has_times);
 }
 
 std::string trajectory_picture(const Trajectory& estimate, const PictureOptions& options) {
   if (estimate.empty()) throw Error("trajectory picture", "there are no poses to draw", "");
-  const Map map{{},
-                pieces_of(estimate, Sim3d()),
-                estimate.front().T_world_camera.translation(),
-                estimate.back().T_world_camera.translation(),
-                "map units"};
-  const std::string content =
-      draw_legend(options, false) + draw_map(map, {kLeft, kTop, kWidth - kLeft - kRight, kMapHeight});
-  const std::string subtitle = std::to_string(estimate.size()) + " poses; scale and orientation are free";
-  return picture_frame(kTop + kMapHeight + kAxisRoom, options.title.empty() ? "Camera trajectory" : options.title,
-                       subtitle, content);
+  const Map map{{}, {track_of(estimate, Sim3d(), kEstimateStyle)}, "map units"};
+  return picture_of(map, {}, {{options.estimate_label, kEstimateStyle}},
+                    options.title.empty() ? "Camera trajectory" : options.title,
+                    std::to_string(estimate.size()) + " poses; scale and orientation are free", options.has_times);
+}
+
+std::string loop_picture(const Trajectory& before, const Trajectory& after, const Trajectory& truth,
+                         const std::string& title) {
+  const EvaluationResult result_before = evaluate_trajectory(before, truth);
+  const EvaluationResult result_after = evaluate_trajectory(after, truth);
+  // Aligned at the start alone the drift shows where it has come to: at the end.
+  const bool at_start = result_before.tum_mono && result_after.tum_mono;
+  const Sim3d S_before = at_start ? result_before.tum_mono->T_start : result_before.S_truth_estimate;
+  const Sim3d S_after = at_start ? result_after.tum_mono->T_start : result_after.S_truth_estimate;
+  const Map map{pieces_of(truth_near(truth, {&before, &after}), Sim3d()),
+                {track_of(before, S_before, kBeforeStyle), track_of(after, S_after, kEstimateStyle)},
+                "m"};
+  std::vector<ErrorTrack> errors;
+  if (!at_start) {
+    errors = {error_track(before, result_before, true, kBeforeStyle),
+              error_track(after, result_after, true, kEstimateStyle)};
+  }
+  return picture_of(
+      map, errors,
+      {{"ground truth", kTruthStyle}, {"before loop closing", kBeforeStyle}, {"after loop closing", kEstimateStyle}},
+      title, loop_subtitle(result_before, result_after), true);
 }
 
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,

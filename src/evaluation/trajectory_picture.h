@@ -25,7 +25,12 @@ std::string trajectory_picture(const Trajectory& estimate, const Trajectory& tru
 /// The estimate alone, in its own world and unit. Throws ldso::Error if it is empty.
 std::string trajectory_picture(const Trajectory& estimate, const PictureOptions& options = {});
 
-/// Writes the same to a file. Throws ldso::Error if it cannot be written.
+/// An estimate before and after loop closing over the ground truth, each aligned by Sim(3) over the whole; to the start
+/// segment if the ground truth is of both ends only. Throws ldso::Error as evaluate_trajectory.
+std::string loop_picture(const Trajectory& before, const Trajectory& after, const Trajectory& truth,
+                         const std::string& title);
+
+/// Writes the same as trajectory_picture() to a file. Throws ldso::Error if it cannot be written.
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,
                               const EvaluationResult& result, const PictureOptions& options = {});
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate,

@@ -37,6 +37,40 @@ TEST(SvgChart, EqualScaleWidensTheNarrowRange) {
 
 TEST(SvgChart, EscapesText) { EXPECT_EQ(xml_escape("a<b & \"c\">"), "a&lt;b &amp; &quot;c&quot;&gt;"); }
 
+TEST(SvgChart, TicksOfCountsAreWhole) {
+  std::vector<std::string> labels;
+  for (const Tick& tick : number_ticks({0, 3.1}, 7, true)) labels.push_back(tick.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"0", "1", "2", "3"}));
+  EXPECT_EQ(number_ticks({0, 3.1}, 7).at(1).label, "0.5");
+}
+
+TEST(SvgChart, LogTicksAreNumbers) {
+  std::vector<std::string> labels;
+  for (const Tick& tick : log_ticks({-1.01, 0.8})) labels.push_back(tick.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"0.1", "0.2", "0.5", "1", "2", "5"}));
+  EXPECT_EQ(log_ticks({-2, 3}).size(), 6u);
+  EXPECT_DOUBLE_EQ(log_ticks({-2, 3}).front().position, -2);
+}
+
+TEST(TrajectoryPicture, BeforeAndAfterLoopsOverGroundTruth) {
+  const Trajectory truth = winding_trajectory(100);
+  Trajectory before = truth;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    before[i].T_world_camera.translation() *= 1 + 0.002 * static_cast<double>(i);
+  }
+  const std::string svg = loop_picture(before, truth, truth, "room");
+  EXPECT_EQ(occurrences(svg, "<polyline"), 5u);  // Truth and two estimates, and the errors of these.
+  EXPECT_NE(svg.find(">before loop closing<"), std::string::npos);
+  EXPECT_NE(svg.find(">after loop closing<"), std::string::npos);
+  EXPECT_NE(svg.find("m after loop closing; both aligned over the whole"), std::string::npos);
+
+  Trajectory ends = truth;
+  ends.erase(ends.begin() + 30, ends.end() - 30);
+  const std::string of_ends = loop_picture(before, truth, ends, "room");
+  EXPECT_EQ(occurrences(of_ends, "<polyline"), 4u);  // The truth in two pieces, no errors.
+  EXPECT_NE(of_ends.find("both aligned to the start segment"), std::string::npos);
+}
+
 TEST(TrajectoryPicture, ShowsTheTwoMainAxesAndTheError) {
   const Trajectory truth = winding_trajectory(100);
   const EvaluationResult result = evaluate_trajectory(transformed(some_similarity(), truth), truth);

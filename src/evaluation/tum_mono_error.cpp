@@ -81,6 +81,7 @@ TumMonoError tum_mono_error(const Trajectory& estimate, const Trajectory& truth,
   const Sim3d T_common = align_pairs(estimate, truth, pairs, AlignmentMode::kSim3);
 
   TumMonoError error;
+  error.T_start = T_start;
   error.T_drift = T_end * T_start.inverse();
   error.e_translation = error.T_drift.translation().norm();
   error.e_rotation_deg = rotation_angle_deg(error.T_drift.rotation());

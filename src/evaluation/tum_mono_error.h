@@ -22,6 +22,7 @@ struct TumMonoError {
   double end_rmse = 0;    ///< RMS of the end segment after its own alignment.
   std::size_t start_pairs = 0;
   std::size_t end_pairs = 0;
+  Sim3d T_start;  ///< Maps the estimate to the start segment.
   Sim3d T_drift;  ///< T_end * T_start^-1.
 };
 

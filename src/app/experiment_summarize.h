@@ -1,0 +1,15 @@
+#pragma once
+// `ldso experiment summarize`: figures and tables of an experiment from what is finished.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+namespace ldso {
+
+/// Adds the subcommand to `experiment`.
+void add_summarize_command(CLI::App& experiment, int& exit_code);
+
+/// Writes all figures and tables into `<experiment>/summary` and prints where they are: for the end of a plan.
+void summarize_experiment(const std::filesystem::path& experiment);
+
+}  // namespace ldso
