@@ -36,7 +36,7 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_option("sequence", a.sequence, "Folder or video file; the format is recognized")->required();
   command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
   command.add_option("--start", a.dataset.start, "First frame")->check(CLI::NonNegativeNumber);
-  command.add_option("--end", a.dataset.end, "First frame that is not used any more");
+  command.add_option("--end", a.dataset.end, "First frame that is not used any more; negative: so many left out at the end");
   command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(CLI::PositiveNumber);
   command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
   command.add_option("--calib", a.dataset.calibration_file,

@@ -8,6 +8,7 @@
 #include "app/loops_json.h"
 #include "evaluation/trajectory_picture.h"
 #include "io/ply_file.h"
+#include "io/text_file.h"
 #include "io/trajectory_file.h"
 #include "ldso/error.h"
 
@@ -16,12 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path.string(), "cannot be written", "check the disk and the permissions");
-}
+constexpr const char* kRunJson = "run.json";
 
 std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
   std::vector<PlyPoint> cloud;
@@ -49,7 +45,7 @@ void write_loop_files(const fs::path& folder, const RunSummary& summary) {
   if (!summary.settings.loops.enabled) return;
   write_tum_trajectory(folder / "trajectory_odometry.txt", summary.odometry_trajectory);
   write_ply(folder / "map_odometry.ply", ply_points(summary.odometry_points));
-  write_text(folder / "loops.json", loops_json(summary.run.result.loops).dump(2) + "\n");
+  write_file(folder / "loops.json", loops_json(summary.run.result.loops).dump(2) + "\n");
 }
 
 }  // namespace
@@ -69,6 +65,7 @@ void prepare_output_folder(const fs::path& folder) {
   const bool writable = !file.fail();
   fs::remove(probe, error);
   if (!writable) throw Error(folder.string(), "the output folder cannot be written", remedy);
+  fs::remove(folder / kRunJson);
 }
 
 void write_run_files(const fs::path& folder, const RunSummary& summary, const Dataset& dataset, bool kitti) {
@@ -79,7 +76,7 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   write_ply(folder / "map.ply", ply_points(summary.points));
   write_loop_files(folder, summary);
   write_picture(folder, summary);
-  write_text(folder / "run.json", run_json(summary, dataset).dump(2) + "\n");
+  write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");
 }
 
 }  // namespace ldso
