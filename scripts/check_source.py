@@ -36,7 +36,7 @@ ODOMETRY_RECORDS = {"keyframe", "point", "brightness", "residual_pattern", "texe
 LIBRARIES = {
     r"opencv2/": {"io", "place"},
     r"zip\.h": {"io", "simulation"},
-    r"yaml-cpp/": {"io", "simulation"},
+    r"yaml-cpp/": {"io", "evaluation", "simulation"},
     r"nlohmann/": {"io", "evaluation", "app", "viewer"},
     r"CLI/": {"app"},
     r"boost/": {"viewer"},

@@ -26,8 +26,8 @@ class JobFile : public testing::Test {
     return "";
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "ldso_job_file" /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / "ldso_job_file" / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 ExperimentJob some_job() {
