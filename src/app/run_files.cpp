@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunJson = "run.json";
+constexpr const char* kRemedy = "give a folder that can be written by -o";
 
 std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
   std::vector<PlyPoint> cloud;
@@ -50,21 +51,25 @@ void write_loop_files(const fs::path& folder, const RunSummary& summary) {
 
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder) {
-  const std::string remedy = "give a folder that can be written by -o";
+void make_output_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder)) {
     throw Error(folder.string(), "the output folder cannot be created" + (error ? " (" + error.message() + ")" : ""),
-                remedy);
+                kRemedy);
   }
+}
+
+void prepare_output_folder(const fs::path& folder) {
+  make_output_folder(folder);
+  std::error_code error;
   const fs::path probe = folder / ".ldso_write_test";
   std::ofstream file(probe);
   file << "ldso\n";
   file.close();
   const bool writable = !file.fail();
   fs::remove(probe, error);
-  if (!writable) throw Error(folder.string(), "the output folder cannot be written", remedy);
+  if (!writable) throw Error(folder.string(), "the output folder cannot be written", kRemedy);
   fs::remove(folder / kRunJson);
 }
 

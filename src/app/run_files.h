@@ -7,6 +7,9 @@
 
 namespace ldso {
 
+/// Creates the folder of the results if there is none. Throws Error if that is impossible.
+void make_output_folder(const std::filesystem::path& folder);
+
 /// Creates the folder and tries to write into it. Throws Error if that is impossible: better before a long run. Removes
 /// run.json of an earlier run: as long as it is missing, the files in the folder are not those of one finished run.
 void prepare_output_folder(const std::filesystem::path& folder);

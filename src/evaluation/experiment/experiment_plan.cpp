@@ -106,6 +106,7 @@ std::string readable(std::string alternatives) {
 }
 
 std::vector<std::string> missing_parts(const PlanSequence& sequence) {
+  if (sequence.path.empty()) return {};
   if (!is_there(sequence.path)) return {sequence.path.string() + " (there is no such folder)"};
   std::vector<std::string> missing;
   for (const std::string& need : sequence.needs) {
@@ -160,7 +161,7 @@ std::vector<IncompleteSequence> find_incomplete(const ExperimentPlan& plan) {
   std::vector<IncompleteSequence> incomplete;
   for (const PlanSequence& sequence : plan.sequences) {
     std::vector<std::string> missing = missing_parts(sequence);
-    if (!missing.empty())
+    if (!missing.empty() || sequence.path.empty())
       incomplete.push_back({sequence.name, sequence.dataset, std::move(missing), sequence.download});
   }
   return incomplete;
@@ -169,13 +170,21 @@ std::vector<IncompleteSequence> find_incomplete(const ExperimentPlan& plan) {
 std::string describe_incomplete(const std::vector<IncompleteSequence>& sequences, std::size_t planned) {
   std::string text = std::to_string(sequences.size()) + " of " + std::to_string(planned) +
                      " sequences of the plan cannot be run. Missing:";
-  std::vector<std::string> hints;
+  std::vector<std::string> said;
+  const auto say_once = [&](const std::string& line) {
+    if (std::find(said.begin(), said.end(), line) != said.end()) return;
+    said.push_back(line);
+    text.append("\n  ").append(line);
+  };
   for (const IncompleteSequence& sequence : sequences) {
-    for (const std::string& part : sequence.missing) text += "\n  " + sequence.name + ": " + part;
-    const std::string hint = "\n" + sequence.dataset + ": " + sequence.download;
-    if (!sequence.download.empty() && std::find(hints.begin(), hints.end(), hint) == hints.end()) hints.push_back(hint);
+    if (sequence.missing.empty())
+      say_once(sequence.dataset + ": nothing says where it lies; give --root " + sequence.dataset + "=FOLDER");
+    for (const std::string& part : sequence.missing)
+      text.append("\n  ").append(sequence.name).append(": ").append(part);
   }
-  for (const std::string& hint : hints) text += hint;
+  for (const IncompleteSequence& sequence : sequences) {
+    if (!sequence.download.empty()) say_once(sequence.dataset + " can be had here: " + sequence.download);
+  }
   return text;
 }
 

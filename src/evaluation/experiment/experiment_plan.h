@@ -30,7 +30,7 @@ struct PlanVariant {
 struct PlanSequence {
   std::string name;
   std::string dataset;
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< Empty: nothing says where the dataset lies.
   /// Relative to `path`; "a|b": one of both. Checked before anything runs.
   std::vector<std::string> needs;
   std::string download;  ///< Where the dataset can be got, for people.
@@ -67,7 +67,7 @@ std::vector<ExperimentJob> select_jobs(const std::vector<ExperimentJob>& jobs,
 struct IncompleteSequence {
   std::string name;
   std::string dataset;
-  std::vector<std::string> missing;  ///< Folders and files, each with what is wrong.
+  std::vector<std::string> missing;  ///< Folders and files; none if nothing says where the dataset lies.
   std::string download;
 };
 

@@ -165,6 +165,12 @@ TEST(ExperimentPlan, AllThatIsMissingIsNamedAtOnce) {
   EXPECT_NE(text.find("half: " + (folder / "half/times.txt").string()), std::string::npos) << text;
   EXPECT_EQ(text.find("https://example.org"), text.rfind("https://example.org")) << "said once";
 
+  ExperimentPlan rootless = plan;
+  for (PlanSequence& sequence : rootless.sequences) sequence.path.clear();
+  const std::string hint = describe_incomplete(find_incomplete(rootless), 3);
+  EXPECT_NE(hint.find("--root mono=FOLDER"), std::string::npos) << hint;
+  EXPECT_EQ(hint.find("--root mono=FOLDER"), hint.rfind("--root mono=FOLDER")) << "said once";
+
   plan.sequences[0].ground_truth.reset();
   incomplete = find_incomplete(plan);
   ASSERT_EQ(incomplete.size(), 2u);

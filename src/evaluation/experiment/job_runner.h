@@ -47,8 +47,9 @@ struct RunnerReport {
 /// Returns when all jobs have ended, here or elsewhere, or `options.stop` is set.
 /// - A job that ends without run.json by itself or by a crash gets a failure.json and counts as failed.
 /// - A job killed from outside is no result: it is run again, three times in all.
+/// Results that are there already are taken for these jobs': see refuse_changed_jobs().
 /// Call it from the main thread (see JobProcess). Throws Error if folders cannot be written or the program cannot be
-/// run, or if a job that has ended was another one (see changed_jobs()).
+/// run.
 RunnerReport run_jobs(const std::vector<ExperimentJob>& jobs, const RunnerOptions& options);
 
 /// Ids of jobs that have ended but were asked for otherwise then: another sequence or other settings. The number of

@@ -195,7 +195,7 @@ class PlanReader {
       read_sequence_key(key, value, keys);
     }
     if (!sequences) node.fail("has no sequences", "give `sequences: [NAME, ..]`");
-    const fs::path folder = root_of(name, node, root, only, download);
+    const fs::path folder = root_of(name, root, only);
     for (const PlanNode& element : sequences->elements()) {
       plan_.sequences.push_back(read_sequence(element, keys, folder));
       plan_.sequences.back().dataset = name;
@@ -203,16 +203,14 @@ class PlanReader {
     }
   }
 
-  fs::path root_of(const std::string& name, const PlanNode& node, const std::optional<PlanNode>& root, bool only,
-                   const std::string& download) const {
+  /// Empty if nothing says it: that is one of the things that are missing on this machine, not a mistake of the plan.
+  fs::path root_of(const std::string& name, const std::optional<PlanNode>& root, bool only) const {
     const auto given = roots_.by_dataset.find(name);
     if (given != roots_.by_dataset.end()) return absolute(fs::current_path(), given->second);
     if (only && roots_.only) return absolute(fs::current_path(), *roots_.only);
     if (root) return absolute(folder_, root->text());
     if (root_) return absolute(folder_, *root_);
-    node.fail("has no root: nothing says in which folder its sequences lie",
-              "give --root " + (only ? "" : name + "=") + "FOLDER or a line `root: FOLDER`" +
-                  (download.empty() ? "" : "; the data: " + download));
+    return {};
   }
 
   void read_sequence_key(const std::string& key, const PlanNode& value, SequenceKeys& keys) {
@@ -255,7 +253,7 @@ class PlanReader {
       if (other.name == sequence.name)
         node.fail("lists '" + sequence.name + "' twice", "remove one or give it another name");
     }
-    sequence.path = absolute(root, with_name(keys.path, sequence.name));
+    if (!root.empty()) sequence.path = absolute(root, with_name(keys.path, sequence.name));
     for (const std::string& need : keys.needs) sequence.needs.push_back(with_name(need, sequence.name));
     sequence.playback = keys.playback;
     sequence.metric = keys.metric;

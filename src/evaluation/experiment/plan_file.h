@@ -22,7 +22,7 @@ PlanRoots parse_roots(const std::vector<std::string>& texts);
 
 /// Relative paths in the plan start at the folder of the file; roots given here at the current folder.
 /// Throws Error naming file, line and what to do: unknown keys (with the nearest one), missing ones, wrong types,
-/// settings that do not exist or are out of range, datasets without a root.
+/// settings that do not exist or are out of range.
 ExperimentPlan read_plan(const std::filesystem::path& file, const PlanRoots& roots = {});
 
 /// The same for a text; relative paths start at `folder`, messages begin with `origin`.

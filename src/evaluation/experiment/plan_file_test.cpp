@@ -129,6 +129,13 @@ TEST(PlanFile, RootsOfTheCommandLineWin) {
   EXPECT_EQ(parse_roots({"/data/a=b"}).only, "/data/a=b");
 }
 
+TEST(PlanFile, WithoutARootThePathIsUnknown) {
+  const ExperimentPlan plan = parsed("datasets: {tum: {sequences: [a]}, k: {root: /k, sequences: [b]}}");
+  EXPECT_TRUE(plan.sequences[0].path.empty());
+  EXPECT_EQ(plan.sequences[1].path, "/k/b");
+  EXPECT_EQ(parsed("root: r\ndatasets: {tum: {sequences: [a]}}").sequences[0].path, "/plans/r/a");
+}
+
 struct BadPlan {
   const char* text;
   const char* where;
@@ -169,8 +176,6 @@ TEST(PlanFile, MistakesInDatasetsAreNamedWithTheirLine) {
       {"- a\n- b\n", "plan.yaml:1", "docs/experiments.md"},
       {"", "plan.yaml:1", "docs/experiments.md"},
       {"datasets:\n  tum: {root: /d}\n", "plan.yaml:2: 'tum' has no sequences", "sequences: [NAME, ..]"},
-      {"datasets:\n  tum:\n    download: URL\n    sequences: [a]\n", "'tum' has no root", "--root FOLDER"},
-      {"datasets:\n  tum: {sequences: [a]}\n  k: {sequences: [a]}\n", "'tum' has no root", "--root tum=FOLDER"},
       {"datasets:\n  tum:\n    root: /d\n    sequence: [a]\n", "plan.yaml:4: unknown key", "'sequences'?"},
       {"datasets: {tum: {root: /d, sequences: [a, b,\n  a]}}\n", "plan.yaml:2: 'sequences' lists 'a' twice", "remove"},
       {"datasets: {tum: {root: /d, sequences: [../a]}}\n", "plan.yaml:1: 'sequences' is '../a'", "make a name"},
