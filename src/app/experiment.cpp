@@ -5,6 +5,7 @@
 #include "app/experiment_run.h"
 #include "app/experiment_status.h"
 #ifdef LDSO_HAS_SIMULATE
+#include "app/experiment_demo.h"
 #endif
 
 namespace ldso {
@@ -18,6 +19,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   add_experiment_status_command(*command);
   // Commands on the results (summarize, compare) are added here.
 #ifdef LDSO_HAS_SIMULATE
+  add_experiment_demo_command(*command, exit_code);
 #endif
 }
 
