@@ -44,7 +44,7 @@ void check_sequences(ExperimentPlan& plan, const ExperimentRunOptions& options) 
   const std::string text = plan.origin + ": " + describe_incomplete(incomplete, plan.sequences.size());
   const std::size_t rest = plan.sequences.size() - incomplete.size();
   if (!options.skip_missing) {
-    throw Error(text + "\nCheck --root" +
+    throw Error(text + "\ncheck --root" +
                 (rest > 0 ? ", or run the other " + std::to_string(rest) + " with --skip-missing" : ""));
   }
   if (rest == 0) throw Error(text + "\nNothing is left to run");
@@ -114,7 +114,7 @@ int report_end(const RunnerReport& report, const ExperimentRunOptions& options) 
   if (!options.quiet) {
     std::cout << "finished       " << report.finished << " jobs";
     if (report.failed > 0) std::cout << ", " << report.failed << " failed (ldso experiment status says why)";
-    std::cout << "\nresults        " << options.out.string() << "\n";
+    std::cout << "\nrun here       " << report.started << "\nresults        " << options.out.string() << "\n";
   }
   return 0;
 }
@@ -132,7 +132,8 @@ ExperimentPlan load_plan(const std::string& plan, const PlanRoots& roots) {
   std::string list;
   for (const std::string& name : names) list.append(list.empty() ? "" : ", ").append(name);
   throw Error(plan, "there is no such file, nor a plan of that name",
-              "plans that come with the program: " + list + "; did you mean " + nearest_name(plan, names) + "?");
+              "plans that come with the program: " + list + "; did you mean " + nearest_name(plan, names) +
+                  "? ldso experiment --help lists the commands");
 }
 
 int run_experiment(ExperimentPlan plan, const ExperimentRunOptions& given) {

@@ -37,13 +37,13 @@ StandIn kitti(const char* name, SequenceRecipe recipe) {
 }
 
 std::vector<StandIn> small_ones() {
-  SequenceRecipe lap = recipe_of("room", 1, 320, 240, 8);
+  SequenceRecipe lap = recipe_of("room", 1, 320, 240, 6);
   lap.scale = 0.7;  // A little more than once round.
   SequenceRecipe flight = recipe_of("room", 2, 320, 204, 12);
-  flight.frames = 80;
+  flight.frames = 60;
   SequenceRecipe drive = recipe_of("street", 4, 416, 126, 10);
   drive.scale = 0.4;
-  drive.frames = 60;
+  drive.frames = 40;
   for (SequenceRecipe* recipe : {&lap, &flight, &drive}) recipe->texel_scale = 2;  // Nobody sees more in small images.
   return {tum_mono("sequence_01", lap), euroc("V1_01", flight), kitti("00", drive)};
 }
