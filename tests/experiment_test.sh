@@ -189,6 +189,12 @@ expect_exit 0 experiment run "$plan" -o "$WORK/missing" --skip-missing --only fo
 expect_output '^warning: .*2 of 3 sequences'
 expect_output '^finished       1 jobs$'
 
+echo "-- plans that come with the program"
+for plan_and_count in tum_mono:50 tum_mono_loops:50 euroc:11 kitti:11 runtime:6 demo:6 demo_small:3 nightly:6; do
+  expect_exit 1 experiment run "${plan_and_count%:*}" -o "$WORK/missing"
+  expect_output "^error: .* ${plan_and_count#*:} of ${plan_and_count#*:} sequences of the plan cannot be run"
+done
+
 echo "-- mistakes are named"
 echo 'repetitons: 3' >>"$plan"
 expect_exit 1 experiment run "$plan" -o "$WORK/missing"

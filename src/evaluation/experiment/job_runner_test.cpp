@@ -1,6 +1,7 @@
 #include "evaluation/experiment/job_runner.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -181,7 +182,7 @@ pid_t in_a_process(const Action& action) {
 }
 
 void wait_until(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1000 && !condition(); ++i) usleep(10000);
+  for (int i = 0; i < 1000 && !condition(); ++i) poll(nullptr, 0, 10);
 }
 
 TEST_F(JobRunnerTest, JobsDieWithTheirRunnerAndAreRunAgain) {
