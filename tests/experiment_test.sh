@@ -199,5 +199,5 @@ echo "-- mistakes are named"
 echo 'repetitons: 3' >>"$plan"
 expect_exit 1 experiment run "$plan" -o "$WORK/missing"
 expect_output "^error: .*plan.yaml:16: unknown key 'repetitons'; did you mean 'repetitions'\?"
-expect_exit 1 experiment summarise "$WORK/missing" -o x
+expect_exit 1 experiment summarise -o x
 expect_output 'there is no such file, nor a plan of that name'
