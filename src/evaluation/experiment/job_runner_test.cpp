@@ -72,6 +72,10 @@ class JobRunnerTest : public testing::Test {
   std::vector<std::string> failures_;
 };
 
+void wait_until(const std::function<bool()>& condition) {
+  for (int i = 0; i < 1000 && !condition(); ++i) poll(nullptr, 0, 10);
+}
+
 TEST_F(JobRunnerTest, EachJobIsRunOnceAndKept) {
   std::vector<ExperimentJob> jobs;
   for (int i = 0; i < 7; ++i) jobs.push_back(job(std::string("s/v/forward_").append(std::to_string(i)), kGood));
@@ -155,7 +159,7 @@ TEST_F(JobRunnerTest, StopEndsTheJobsInOrder) {
   options.program = {"/bin/sh", "sh"};
   options.parallel = 2;
   options.stop = &stop_;
-  options.patience = std::chrono::milliseconds(300);
+  options.patience = std::chrono::milliseconds(1000);
   // A third job stops everything once both are up.
   options.progress = [&](const RunnerProgress&) {
     stop_ = fs::exists(folder_ / "jobs/polite/up") && fs::exists(folder_ / "jobs/stubborn/up");
@@ -167,6 +171,8 @@ TEST_F(JobRunnerTest, StopEndsTheJobsInOrder) {
   EXPECT_TRUE(fs::exists(folder_ / "jobs/polite/asked"));
   EXPECT_FALSE(fs::exists(folder_ / "jobs/stubborn/failure.json"));
   EXPECT_FALSE(fs::exists(folder_ / "jobs/never"));
+  // What the job itself has started is killed with it, but nobody waits for that.
+  wait_until([&] { return !JobLock::is_held(folder_ / "jobs/stubborn"); });
   EXPECT_FALSE(JobLock::is_held(folder_ / "jobs/stubborn"));
 }
 
@@ -179,10 +185,6 @@ pid_t in_a_process(const Action& action) {
     _exit(0);
   }
   return child;
-}
-
-void wait_until(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1000 && !condition(); ++i) poll(nullptr, 0, 10);
 }
 
 TEST_F(JobRunnerTest, JobsDieWithTheirRunnerAndAreRunAgain) {
