@@ -65,7 +65,8 @@ std::string truth_text(const SimulatedSequence& sequence, int frames) {
          "b_w_RS_S_z [rad s^-1], b_a_RS_S_x [m s^-2], b_a_RS_S_y [m s^-2], b_a_RS_S_z [m s^-2]\n";
   for (int i = 0; i < frames; ++i) {
     const SE3d T_world_body = sequence.T_world_camera(i) * T_body_camera().inverse();
-    const Eigen::Vector3d p = T_world_body.translation(), v = velocity(sequence, i, frames);
+    const Eigen::Vector3d& p = T_world_body.translation();
+    const Eigen::Vector3d v = velocity(sequence, i, frames);
     const Eigen::Quaterniond q(T_world_body.rotation().matrix());
     out << nanoseconds(sequence.timestamp(i));
     for (const double value : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z()})

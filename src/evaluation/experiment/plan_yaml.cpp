@@ -43,7 +43,7 @@ std::string PlanNode::scalar() const {
 }
 
 std::string PlanNode::text() const {
-  const std::string value = scalar();
+  std::string value = scalar();
   if (value.empty()) fail("is empty", "write `" + name_ + ": text`");
   return value;
 }

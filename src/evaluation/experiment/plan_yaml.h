@@ -13,8 +13,8 @@ namespace ldso {
 /// A value of a plan: what it is called in messages, and where it stands.
 class PlanNode {
  public:
-  PlanNode(std::string origin, YAML::Node node, std::string name)
-      : origin_(std::move(origin)), node_(std::move(node)), name_(std::move(name)) {}
+  PlanNode(std::string origin, const YAML::Node& node, std::string name)
+      : origin_(std::move(origin)), node_(node), name_(std::move(name)) {}
 
   /// The root of a YAML text. Throws Error naming the line if it is none.
   static PlanNode parse(const std::string& text, const std::string& origin);
