@@ -10,6 +10,9 @@ long=$WORK/sequence
 repeat_sequence "$SEQUENCE" "$long" 200
 total=$(find "$long/images" -name '*.*' | wc -l)
 
+# Of an earlier run: gone as soon as this one has begun, since run.json says that the folder is complete.
+mkdir -p "$out" && echo '{"interrupted": false}' >"$out/run.json"
+
 # Job control, so that SIGINT is not ignored in the background.
 set -m
 "$LDSO" run "$long" -o "$out" >"$WORK/log" 2>&1 &
@@ -21,6 +24,7 @@ for ((i = 0; i < 600; i++)); do
   sleep 0.1
 done
 grep -q '^frame 100/' "$WORK/log" || fail "100 frames took more than 60 s"
+[[ ! -e $out/run.json ]] || fail "run.json of an earlier run was left while the run goes on"
 kill -s "$SIGNAL" "$pid"
 status=0
 wait "$pid" || status=$?

@@ -41,7 +41,8 @@ void ProgressBar::update(int done, int count, const std::string& text) {
     if (!last && now - drawn_ < kRedraw) return;
     drawn_ = now;
     draw_bar(done, count, text);
-  } else if (last || done % plain_line_every_ == 0) {
+  } else if (done != printed_ && (last || done % plain_line_every_ == 0)) {
+    printed_ = done;
     std::fprintf(stderr, "%s\n", text.c_str());
   }
 }

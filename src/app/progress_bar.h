@@ -11,7 +11,8 @@ namespace ldso {
 
 class ProgressBar {
  public:
-  /// `quiet`: warnings only. Off a terminal a line is printed each time `done` is a multiple of `plain_line_every`.
+  /// `quiet`: warnings only. Off a terminal a line is printed each time `done` becomes a multiple of
+  /// `plain_line_every`.
   explicit ProgressBar(bool quiet, int plain_line_every = 100);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -35,6 +36,7 @@ class ProgressBar {
   const std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point drawn_;
   bool bar_visible_ = false;
+  int printed_ = -1;  ///< The last `done` that got a line.
   std::mutex mutex_;
 };
 

@@ -12,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/loop_pictures.h"
 #include "app/progress_display.h"
+#include "app/run_as_job.h"
 #include "app/run_files.h"
 #include "app/run_report.h"
 #include "io/settings_file.h"
@@ -29,14 +30,15 @@ struct RunArguments {
   std::optional<fs::path> config, vocabulary;
   std::optional<int> threads;
   std::vector<std::string> set;
-  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false;
+  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false;
 };
 
 void add_options(CLI::App& command, RunArguments& a) {
   command.add_option("sequence", a.sequence, "Folder or video file; the format is recognized")->required();
   command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
   command.add_option("--start", a.dataset.start, "First frame")->check(CLI::NonNegativeNumber);
-  command.add_option("--end", a.dataset.end, "First frame that is not used any more");
+  command.add_option("--end", a.dataset.end,
+                     "First frame that is not used any more; negative: so many left out at the end");
   command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(CLI::PositiveNumber);
   command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
   command.add_option("--calib", a.dataset.calibration_file,
@@ -53,6 +55,10 @@ void add_options(CLI::App& command, RunArguments& a) {
       ->excludes(no_loops);
   command.add_flag("--kitti", a.kitti, "Also write trajectory_kitti.txt");
   command.add_flag("--quiet", a.quiet, "Print warnings only");
+  command.add_flag(
+      "--job", a.job,
+      "As a job of an experiment: log.txt and failure.json go to the results as well, and nothing is done if "
+      "there is a result already or another process is at it");
 }
 
 Settings read_all_settings(const RunArguments& a) {
@@ -155,7 +161,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Track the camera through a sequence and map what it sees");
   add_options(*command, *arguments);
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+  command->callback([arguments, &exit_code] {
+    const auto action = [&] { return run(*arguments); };
+    exit_code = arguments->job ? run_as_job(arguments->out, action) : action();
+  });
 }
 
 }  // namespace ldso

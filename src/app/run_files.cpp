@@ -9,6 +9,7 @@
 #include "evaluation/trajectory_picture.h"
 #include "io/calibration_file.h"
 #include "io/ply_file.h"
+#include "io/text_file.h"
 #include "io/trajectory_file.h"
 #include "ldso/error.h"
 
@@ -17,12 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path.string(), "cannot be written", "check the disk and the permissions");
-}
+constexpr const char* kRunJson = "run.json";
+constexpr const char* kRemedy = "give a folder that can be written by -o";
 
 std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
   std::vector<PlyPoint> cloud;
@@ -50,26 +47,31 @@ void write_loop_files(const fs::path& folder, const RunSummary& summary) {
   if (!summary.settings.loops.enabled) return;
   write_tum_trajectory(folder / "trajectory_odometry.txt", summary.odometry_trajectory);
   write_ply(folder / "map_odometry.ply", ply_points(summary.odometry_points));
-  write_text(folder / "loops.json", loops_json(summary.run.result.loops).dump(2) + "\n");
+  write_file(folder / "loops.json", loops_json(summary.run.result.loops).dump(2) + "\n");
 }
 
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder) {
-  const std::string remedy = "give a folder that can be written by -o";
+void make_output_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder)) {
     throw Error(folder.string(), "the output folder cannot be created" + (error ? " (" + error.message() + ")" : ""),
-                remedy);
+                kRemedy);
   }
+}
+
+void prepare_output_folder(const fs::path& folder) {
+  make_output_folder(folder);
+  std::error_code error;
   const fs::path probe = folder / ".ldso_write_test";
   std::ofstream file(probe);
   file << "ldso\n";
   file.close();
   const bool writable = !file.fail();
   fs::remove(probe, error);
-  if (!writable) throw Error(folder.string(), "the output folder cannot be written", remedy);
+  if (!writable) throw Error(folder.string(), "the output folder cannot be written", kRemedy);
+  fs::remove(folder / kRunJson);
 }
 
 void write_run_files(const fs::path& folder, const RunSummary& summary, const Dataset& dataset, bool kitti) {
@@ -81,8 +83,8 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   write_loop_files(folder, summary);
   write_picture(folder, summary);
   fs::remove(folder / "camera.txt");
-  if (summary.run.passes > 1) write_text(folder / "camera.txt", camera_file_text(summary.run.calibration));
-  write_text(folder / "run.json", run_json(summary, dataset).dump(2) + "\n");
+  if (summary.run.passes > 1) write_file(folder / "camera.txt", camera_file_text(summary.run.calibration));
+  write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");
 }
 
 }  // namespace ldso

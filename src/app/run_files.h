@@ -7,11 +7,16 @@
 
 namespace ldso {
 
-/// Creates the folder and tries to write into it. Throws Error if that is impossible: better before a long run.
+/// Creates the folder of the results if there is none. Throws Error if that is impossible.
+void make_output_folder(const std::filesystem::path& folder);
+
+/// Creates the folder and tries to write into it. Throws Error if that is impossible: better before a long run. Removes
+/// run.json of an earlier run: as long as it is missing, the files in the folder are not those of one finished run.
 void prepare_output_folder(const std::filesystem::path& folder);
 
 /// trajectory.txt, keyframes.txt, map.ply and run.json; trajectory_kitti.txt if wanted; trajectory.svg if the run was
-/// evaluated. Files of an earlier run that this one does not write are removed.
+/// evaluated. Files of an earlier run that this one does not write are removed. run.json comes last and all at once:
+/// where it is, everything else is complete.
 void write_run_files(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset,
                      bool kitti);
 

@@ -23,7 +23,7 @@ struct SimulateArguments {
   SequenceRecipe recipe;
   simulation::WriteOptions write;
   fs::path output;
-  std::string size, camera, trajectory, times;
+  std::string size, camera, trajectory, times, layout = "tum-mono", truth = "all";
   int threads = 2;
   bool linear = false, no_vignette = false, constant_exposure = false, hide_exposure = false, no_calibration = false;
   double noise = 1;
@@ -75,7 +75,21 @@ void add_camera_options(CLI::App& command, SimulateArguments& a) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void add_layout_options(CLI::App& command, SimulateArguments& a) {
+  command.add_option("--layout", a.layout, "Of which benchmark the folder looks; kitti: give -o ROOT/sequences/NAME")
+      ->check(CLI::IsMember({"tum-mono", "euroc", "kitti"}))
+      ->capture_default_str();
+  command.add_option("--truth", a.truth, "Ground truth of all frames, or at the start and the end alone (tum-mono)")
+      ->check(CLI::IsMember({"all", "ends"}))
+      ->capture_default_str();
+  command.add_flag("--depth", a.write.depth, "Also write depth maps (16-bit PNG, unit in world.yaml)");
+  command.add_flag("--zip", a.write.zip, "Write images.zip instead of a folder (tum-mono)");
+}
+
 void resolve(SimulateArguments& a) {
+  if (a.layout == "euroc") a.write.layout = simulation::LayoutKind::kEuroc;
+  if (a.layout == "kitti") a.write.layout = simulation::LayoutKind::kKitti;
+  a.write.truth_at_ends = a.truth == "ends";
   if (!a.size.empty()) {
     char rest = 0;
     if (std::sscanf(a.size.c_str(), "%dx%d%c", &a.recipe.width, &a.recipe.height, &rest) != 2 || a.recipe.width < 16 ||
@@ -121,12 +135,12 @@ void run(SimulateArguments a) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("simulate", "Render a sequence with exact ground truth (TUM-mono layout)");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Render a sequence with exact ground truth, in the layout of a benchmark");
   const auto arguments = std::make_shared<SimulateArguments>();
   add_scene_options(*command, *arguments);
   add_camera_options(*command, *arguments);
-  command->add_flag("--depth", arguments->write.depth, "Also write depth maps (16-bit PNG, unit in world.yaml)");
-  command->add_flag("--zip", arguments->write.zip, "Write images.zip instead of a folder");
+  add_layout_options(*command, *arguments);
   command->add_option("--threads", arguments->threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

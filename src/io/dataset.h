@@ -38,7 +38,8 @@ class Dataset {
 struct DatasetOptions {
   /// First frame that is used.
   int start = 0;
-  /// First frame after `start` that is not used any more; nothing or beyond the sequence: all are.
+  /// First frame after `start` that is not used any more; nothing or beyond the sequence: all are. Below zero it counts
+  /// from the sequence's end: -3 leaves the last three frames out.
   std::optional<int> end = std::nullopt;
   /// Use every stride-th frame, beginning with `start`.
   int stride = 1;

@@ -15,9 +15,10 @@ std::vector<int> played_frames(int size, const DatasetOptions& options) {
     throw Error("--start " + std::to_string(options.start), "the sequence has only " + std::to_string(size) + " frames",
                 "the first frame is 0");
   }
-  const int end = std::min(options.end.value_or(size), size);
+  const int asked = options.end.value_or(size);
+  const int end = asked < 0 ? size + std::max(asked, -size) : std::min(asked, size);
   if (end <= options.start) {
-    throw Error("--end " + std::to_string(end), "no frame is left after --start " + std::to_string(options.start),
+    throw Error("--end " + std::to_string(asked), "no frame is left after --start " + std::to_string(options.start),
                 "the end is the first frame that is not used any more");
   }
   std::vector<int> frames;

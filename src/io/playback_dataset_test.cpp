@@ -49,6 +49,8 @@ TEST(PlaybackDataset, StartEndStrideAndReverse) {
   EXPECT_EQ(played({.start = 2, .end = 9, .stride = 3, .reverse = true}), (Frames{8, 5, 2}));
   EXPECT_EQ(played({.end = 100}).size(), 10U);
   EXPECT_EQ(played({.stride = 2147483647}), (Frames{0}));
+  EXPECT_EQ(played({.start = 5, .end = -2}), (Frames{5, 6, 7}));
+  EXPECT_EQ(played({.start = 6, .end = -1, .reverse = true}), (Frames{8, 7, 6}));
 }
 
 TEST(PlaybackDataset, PassesTheRestThrough) {
@@ -62,6 +64,8 @@ TEST(PlaybackDataset, NothingToPlayIsAnError) {
   EXPECT_NE(error_of([] { played({.start = 10}); }).find("has only 10 frames"), std::string::npos);
   EXPECT_NE(error_of([] { played({.start = -1}); }).find("--start"), std::string::npos);
   EXPECT_NE(error_of([] { played({.start = 5, .end = 5}); }).find("--end"), std::string::npos);
+  EXPECT_NE(error_of([] { played({.start = 5, .end = -5}); }).find("--end -5"), std::string::npos);
+  EXPECT_NE(error_of([] { played({.end = -2147483647 - 1}); }).find("no frame is left"), std::string::npos);
   EXPECT_NE(error_of([] { played({.stride = 0}); }).find("--stride"), std::string::npos);
 }
 

@@ -5,115 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <iomanip>
-#include <limits>
-#include <locale>
-#include <sstream>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "io/calibration_file.h"
 #include "io/image_file.h"
 #include "io/text_file.h"
-#include "io/trajectory_file.h"
 #include "ldso/error.h"
+#include "simulation/sequence_layout.h"
 
 namespace ldso::simulation {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string frame_name(int index) {
-  char name[16];
-  std::snprintf(name, sizeof(name), "%05d", index);
-  return name;
-}
-
-std::ostringstream number_stream() {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << std::setprecision(std::numeric_limits<double>::max_digits10);
-  return out;
-}
-
-const char* model_name(CameraModelKind kind) {
-  switch (kind) {
-    case CameraModelKind::kPinhole:
-      return "Pinhole";
-    case CameraModelKind::kFov:
-      return "FOV";
-    case CameraModelKind::kRadTan:
-      return "RadTan";
-    case CameraModelKind::kKannalaBrandt:
-      return "KannalaBrandt";
-  }
-  return "";
-}
-
-int distortion_fields(CameraModelKind kind) {
-  return kind == CameraModelKind::kPinhole || kind == CameraModelKind::kFov ? 1 : 4;
-}
-
-std::string rectification_line(const Rectification& rectification) {
-  std::ostringstream out = number_stream();
-  const PinholeIntrinsics& k = rectification.explicit_intrinsics;
-  switch (rectification.mode) {
-    case RectificationMode::kNone:
-      return "none";
-    case RectificationMode::kCrop:
-      return "crop";
-    case RectificationMode::kFull:
-      return "full";
-    case RectificationMode::kExplicit:
-      out << k.fx << ' ' << k.fy << ' ' << k.cx << ' ' << k.cy << " 0";
-      return out.str();
-  }
-  return "none";
-}
-
-void write_camera(const fs::path& path, const Calibration& calibration) {
-  const CameraCalibration& camera = calibration.camera;
-  std::ostringstream out = number_stream();
-  out << model_name(camera.model) << ' ' << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy;
-  for (int i = 0; i < distortion_fields(camera.model); ++i) out << ' ' << camera.distortion[i];
-  const Rectification& rectification = calibration.rectification;
-  out << '\n' << camera.width << ' ' << camera.height << '\n' << rectification_line(rectification) << '\n';
-  out << (rectification.width > 0 ? rectification.width : camera.width) << ' '
-      << (rectification.height > 0 ? rectification.height : camera.height) << '\n';
-  write_file(path, out.str());
-}
-
-void write_photometry(const fs::path& folder, const PhotometricCalibration& photometric) {
-  if (photometric.inverse_response) {
-    std::ostringstream out = number_stream();
-    for (int i = 0; i < 256; ++i) out << (i > 0 ? " " : "") << (*photometric.inverse_response)[i];
-    out << '\n';
-    write_file(folder / "pcalib.txt", out.str());
-  }
-  if (!photometric.vignette.empty()) {
-    Image<float> scaled = photometric.vignette;
-    std::for_each(scaled.data(), scaled.data() + scaled.size(), [](float& v) { v *= 255; });
-    write_grey16_png(folder / "vignette.png", std::as_const(scaled).view());
-  }
-}
-
-void write_times(const fs::path& path, const SimulatedSequence& sequence, int frames, bool exposure) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << std::fixed << std::setprecision(9);
-  for (int i = 0; i < frames; ++i) {
-    out << frame_name(i) << ' ' << sequence.timestamp(i);
-    if (exposure) out << ' ' << sequence.exposure_ms(i);
-    out << '\n';
-  }
-  write_file(path, out.str());
-}
-
-void write_truth(const fs::path& path, const SimulatedSequence& sequence, int frames) {
-  Trajectory trajectory;
-  for (int i = 0; i < frames; ++i) trajectory.push_back({sequence.timestamp(i), sequence.T_world_camera(i)});
-  write_tum_trajectory(path, trajectory);
-}
+constexpr const char* kDescription = "world.yaml";
 
 template <class Value>
 void entry(YAML::Emitter& out, const char* key, const Value& value) {
@@ -173,9 +80,9 @@ void write_depth(const fs::path& path, const Image<float>& depth, double unit) {
 std::vector<std::string> frame_files(const fs::path& folder) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string(), stem = entry.path().stem().string();
-    const bool digits = stem.size() == 5 && stem.find_first_not_of("0123456789") == std::string::npos;
-    if (digits && entry.path().extension() == ".png") names.push_back(name);
+    const std::string stem = entry.path().stem().string();
+    const bool digits = stem.size() >= 5 && stem.find_first_not_of("0123456789") == std::string::npos;
+    if (digits && entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
   }
   return names;
 }
@@ -187,12 +94,13 @@ std::vector<std::string> frame_files(const fs::path& folder) {
 }
 
 /// Puts the images into an archive, uncompressed (they are PNG), and removes them.
-void pack(const fs::path& images, const fs::path& archive_path, int frames) {
+void pack(const fs::path& images, const fs::path& archive_path) {
+  std::vector<std::string> names = frame_files(images);
+  std::sort(names.begin(), names.end());
   fs::remove(archive_path);
   zip_t* archive = zip_open(archive_path.string().c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
   if (archive == nullptr) fail(nullptr, archive_path);
-  for (int i = 0; i < frames; ++i) {
-    const std::string name = frame_name(i) + ".png";
+  for (const std::string& name : names) {
     zip_source_t* source = zip_source_file(archive, (images / name).string().c_str(), 0, -1);
     const zip_int64_t index = source != nullptr ? zip_file_add(archive, name.c_str(), source, ZIP_FL_ENC_UTF_8) : -1;
     if (index < 0) fail(archive, archive_path);
@@ -200,11 +108,11 @@ void pack(const fs::path& images, const fs::path& archive_path, int frames) {
       fail(archive, archive_path);
   }
   if (zip_close(archive) < 0) fail(archive, archive_path);
-  for (const std::string& name : frame_files(images)) fs::remove(images / name);
+  for (const std::string& name : names) fs::remove(images / name);
   if (fs::is_empty(images)) fs::remove(images);
 }
 
-/// An empty folder of frames: what an earlier run left there (files named by five digits) is removed.
+/// An empty folder of frames: what an earlier run left there (files named by digits) is removed.
 void make_frame_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -212,13 +120,26 @@ void make_frame_folder(const fs::path& folder) {
   for (const std::string& name : frame_files(folder)) fs::remove(folder / name);
 }
 
-/// Removes what an earlier run wrote and this one does not.
-void remove_leftovers(const fs::path& folder) {
-  for (const char* name : {"images.zip", "pcalib.txt", "vignette.png"}) fs::remove(folder / name);
+void remove_depth(const fs::path& folder) {
   const fs::path depth = folder / "depth";
   if (!fs::is_directory(depth)) return;
   for (const std::string& name : frame_files(depth)) fs::remove(depth / name);
   if (fs::is_empty(depth)) fs::remove(depth);
+}
+
+std::unique_ptr<SequenceLayout> layout_of(const WriteOptions& options) {
+  if (options.layout != LayoutKind::kTumMono && (options.zip || options.truth_at_ends)) {
+    throw Error("layout", "archives and ground truth at the ends belong to TUM-mono", "leave --zip and --truth out");
+  }
+  switch (options.layout) {
+    case LayoutKind::kTumMono:
+      return make_tum_mono_layout(options.truth_at_ends);
+    case LayoutKind::kEuroc:
+      return make_euroc_layout();
+    case LayoutKind::kKitti:
+      return make_kitti_layout();
+  }
+  throw Error("layout", "there is no such layout", "choose one of LayoutKind");
 }
 
 }  // namespace
@@ -229,12 +150,14 @@ double depth_unit(const SequenceRecipe& recipe) {
 
 int write_sequence(const SimulatedSequence& sequence, const SequenceRecipe& recipe, const fs::path& folder,
                    const WriteOptions& options, ThreadPool& pool, const std::function<bool(int)>& progress) {
-  const fs::path images = folder / "images";
+  const std::unique_ptr<SequenceLayout> layout = layout_of(options);
+  layout->check(sequence, folder);
+  const fs::path images = folder / layout->image_folder(), depth = folder / "depth";
   make_frame_folder(images);
-  remove_leftovers(folder);
-  if (options.depth) make_frame_folder(folder / "depth");
-  write_camera(folder / "camera.txt", sequence.calibration());
-  write_photometry(folder, sequence.calibration().photometric);
+  layout->remove_leftovers(folder);
+  fs::remove(folder / kDescription);
+  remove_depth(folder);
+  if (options.depth) make_frame_folder(depth);
   // Whole frames in parallel: no thread waits for another within a frame.
   int done = 0;
   bool go_on = true;
@@ -243,18 +166,17 @@ int write_sequence(const SimulatedSequence& sequence, const SequenceRecipe& reci
     const int count = std::min(batch, sequence.size() - done);
     pool.run(count, [&](int i) {
       const int index = done + i;
+      const std::string name = layout->frame_name(sequence, index) + ".png";
       const RawFrame frame = sequence.render(index);
-      write_grey_png(images / (frame_name(index) + ".png"), frame.grey.view());
-      if (options.depth)
-        write_depth(folder / "depth" / (frame_name(index) + ".png"), sequence.depth(index), depth_unit(recipe));
+      write_grey_png(images / name, frame.grey.view());
+      if (options.depth) write_depth(depth / name, sequence.depth(index), depth_unit(recipe));
     });
     done += count;
     if (progress) go_on = progress(done);
   }
-  write_times(folder / "times.txt", sequence, done, recipe.provide_exposure);
-  write_truth(folder / "groundtruth.txt", sequence, done);
-  write_description(folder / "world.yaml", sequence, recipe, done);
-  if (options.zip) pack(images, folder / "images.zip", done);
+  if (options.zip) pack(images, folder / "images.zip");
+  layout->write(folder, sequence, recipe, done);
+  write_description(folder / kDescription, sequence, recipe, done);
   return done;
 }
 
