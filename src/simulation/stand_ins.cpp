@@ -52,8 +52,8 @@ std::vector<StandIn> full_ones() {
   SequenceRecipe block = recipe_of("street", 4, 816, 246, 10), other_block = recipe_of("street", 3, 816, 246, 10);
   block.scale = 0.5;
   other_block.scale = 0.6;
-  return {tum_mono("sequence_01", recipe_of("room", 1, 640, 480, 20)),
-          tum_mono("sequence_02", recipe_of("corridor", 1, 640, 480, 20)),
+  return {tum_mono("sequence_01", recipe_of("room", 1, 640, 480, 15)),
+          tum_mono("sequence_02", recipe_of("corridor", 1, 640, 480, 12)),
           euroc("V1_01", recipe_of("room", 2, 752, 480, 15)),
           euroc("V1_02", recipe_of("room", 3, 752, 480, 15)),
           kitti("00", block),
