@@ -24,6 +24,13 @@ for direction in forward backward; do
   done
 done
 
+# The figures and tables of all of them.
+for file in index.html summary.md results.csv figures/blocks_e_align_tum_mono.svg figures/curves_ate_euroc.svg \
+  figures/curves_ate_kitti.svg tables/ate_kitti.tex tables/runtime.md; do
+  [[ -s $out/summary/$file ]] || fail "$file is missing in the summary"
+done
+expect_output '^runs +18 finished, 0 failed, 0 pending$'
+
 # Again: nothing is rendered and nothing is run.
 expect_exit 0 experiment demo --size small -o "$out"
 expect_output '^run here       0$'
