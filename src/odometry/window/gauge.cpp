@@ -29,4 +29,11 @@ void remove_gauge(const Window& window, Eigen::VectorXd& step) {
   step -= basis * (basis.transpose() * step);
 }
 
+void remove_gauge(const Window& window, Eigen::MatrixXd& H, Eigen::VectorXd& b) {
+  const Eigen::MatrixXd basis = gauge_basis(window);
+  H -= basis * (basis.transpose() * H);
+  H -= (H * basis).eval() * basis.transpose();
+  b -= basis * (basis.transpose() * b);
+}
+
 }  // namespace ldso

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odometry/window/gauge.h"
+
 namespace ldso {
 namespace {
 
@@ -55,8 +57,10 @@ void Marginalizer::marginalize_points(Window& window) {
   const auto chunks = chunk_points(window, [](const ActivePoint& point) { return point.flagged; });
   if (chunks.empty()) return;
   const NormalEquations equations = builder_.build(window, FramePairs(window), chunks, 0.0);
-  const double weight = settings_.marginalization_weight;
-  window.prior.add(weight * (equations.H - equations.H_sc), weight * (equations.b - equations.b_sc), window.delta());
+  Eigen::MatrixXd H = settings_.marginalization_weight * (equations.H - equations.H_sc);
+  Eigen::VectorXd b = settings_.marginalization_weight * (equations.b - equations.b_sc);
+  remove_gauge(window, H, b);
+  window.prior.add(H, b, window.delta());
 }
 
 std::vector<FinishedKeyframe> Marginalizer::remove_keyframes(Window& window) {
