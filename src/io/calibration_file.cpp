@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <locale>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -177,9 +175,7 @@ std::string camera_file_text(const Calibration& calibration) {
   const CameraCalibration& camera = calibration.camera;
   const Rectification& rectification = calibration.rectification;
   const PinholeIntrinsics& wanted = rectification.explicit_intrinsics;
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << std::setprecision(std::numeric_limits<double>::max_digits10);
+  std::ostringstream out = number_stream();
   const ModelLayout& layout = layout_of(camera.model);
   out << layout.name << ' ' << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy;
   for (int i = 0; i < layout.parameters; ++i) out << ' ' << camera.distortion.at(static_cast<std::size_t>(i));

@@ -3,6 +3,9 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iomanip>
+#include <limits>
+#include <locale>
 #include <system_error>
 #include <utility>
 
@@ -45,6 +48,13 @@ std::string to_lower(std::string text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return text;
+}
+
+std::ostringstream number_stream() {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(std::numeric_limits<double>::max_digits10);
+  return out;
 }
 
 std::string read_file(const std::filesystem::path& path) {

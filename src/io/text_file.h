@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,9 @@ class TextFile {
 
 /// The number that `text` consists of, independent of the locale; false if it is none. "nan" and "inf" are numbers.
 bool parse_number(std::string_view text, double& value);
+
+/// For numbers that are read back as they are, whatever the locale.
+std::ostringstream number_stream();
 
 /// `text` in lower case (ASCII).
 std::string to_lower(std::string text);

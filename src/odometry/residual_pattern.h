@@ -25,6 +25,10 @@ inline constexpr float kHuberThreshold = 9.0f;
 /// c of the gradient weight c^2 / (c^2 + |grad|^2) [D eq. 7].
 inline constexpr float kGradientWeight = 50.0f;
 
+/// The eight pixels of a pattern and the residuals of a point share errors (interpolation, the host's noise): the
+/// variance that counting them as independent promises is too small by this. Measured on rendered sequences.
+inline constexpr double kResidualCorrelation = 8;
+
 /// The pattern's intensities and gradient weights in the host keyframe.
 struct alignas(32) PatternPatch {
   std::array<float, kPatternSize> intensity;

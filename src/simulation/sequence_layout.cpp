@@ -1,9 +1,6 @@
 #include "simulation/sequence_layout.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <limits>
-#include <locale>
 
 namespace ldso::simulation {
 
@@ -11,13 +8,6 @@ std::string numbered(int index, int digits) {
   const std::string number = std::to_string(index);
   const std::size_t zeros = static_cast<std::size_t>(digits) - std::min<std::size_t>(digits, number.size());
   return std::string(zeros, '0').append(number);
-}
-
-std::ostringstream number_stream() {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << std::setprecision(std::numeric_limits<double>::max_digits10);
-  return out;
 }
 
 }  // namespace ldso::simulation

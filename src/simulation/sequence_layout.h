@@ -46,7 +46,4 @@ std::unique_ptr<SequenceLayout> make_kitti_layout();
 /// "00042": index with at least so many digits.
 std::string numbered(int index, int digits);
 
-/// For numbers that are read back as they are, whatever the locale.
-std::ostringstream number_stream();
-
 }  // namespace ldso::simulation

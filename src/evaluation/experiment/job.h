@@ -37,4 +37,17 @@ struct ExperimentJob {
   std::vector<std::string> arguments;                 ///< Of the program: "run", the sequence, "-o", ...
 };
 
+/// visit(name, member) for what job.json and the results files both say of a job, its metric apart; `Job` may be const.
+template <class Job, class Visitor>
+void visit_identity(Job& job, Visitor&& visit) {
+  visit("id", job.id);
+  visit("dataset", job.dataset);
+  visit("sequence", job.sequence);
+  visit("variant", job.variant);
+  visit("strategy", job.strategy);
+  visit("loops", job.loops);
+  visit("reverse", job.reverse);
+  visit("repetition", job.repetition);
+}
+
 }  // namespace ldso

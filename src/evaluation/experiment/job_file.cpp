@@ -15,31 +15,19 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFileName = "job.json";
 
 Json json_of(const ExperimentJob& job) {
-  return {{"id", job.id},
-          {"sequence", job.sequence},
-          {"dataset", job.dataset},
-          {"path", job.path.string()},
-          {"variant", job.variant},
-          {"strategy", job.strategy},
-          {"loops", job.loops},
-          {"reverse", job.reverse},
-          {"repetition", job.repetition},
-          {"metric", to_string(job.metric)},
-          {"ground_truth", job.ground_truth ? Json(job.ground_truth->string()) : Json()},
-          {"arguments", job.arguments}};
+  Json json;
+  visit_identity(job, [&](const char* name, const auto& value) { json[name] = value; });
+  json["metric"] = to_string(job.metric);
+  json["path"] = job.path.string();
+  json["ground_truth"] = job.ground_truth ? Json(job.ground_truth->string()) : Json();
+  json["arguments"] = job.arguments;
+  return json;
 }
 
 ExperimentJob job_of(const Json& json) {
   ExperimentJob job;
-  json.at("id").get_to(job.id);
-  json.at("sequence").get_to(job.sequence);
-  json.at("dataset").get_to(job.dataset);
+  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
   job.path = json.at("path").get<std::string>();
-  json.at("variant").get_to(job.variant);
-  json.at("strategy").get_to(job.strategy);
-  json.at("loops").get_to(job.loops);
-  json.at("reverse").get_to(job.reverse);
-  json.at("repetition").get_to(job.repetition);
   job.metric = parse_job_metric(json.at("metric").get<std::string>());
   if (const Json& truth = json.at("ground_truth"); !truth.is_null()) job.ground_truth = truth.get<std::string>();
   json.at("arguments").get_to(job.arguments);

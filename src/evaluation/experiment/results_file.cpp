@@ -39,17 +39,11 @@ void visit_figures(Result& result, Visitor visit) {
 
 Json json_of(const JobResult& result) {
   const ExperimentJob& job = result.job;
-  Json json = {{"id", job.id},
-               {"dataset", job.dataset},
-               {"sequence", job.sequence},
-               {"variant", job.variant},
-               {"strategy", job.strategy},
-               {"loops", job.loops},
-               {"reverse", job.reverse},
-               {"repetition", job.repetition},
-               {"metric", to_string(job.metric)},
-               {"state", to_string(result.state)},
-               {"reason", result.reason}};
+  Json json;
+  visit_identity(job, [&](const char* name, const auto& value) { json[name] = value; });
+  json["metric"] = to_string(job.metric);
+  json["state"] = to_string(result.state);
+  json["reason"] = result.reason;
   visit_figures(result, [&](const std::string& name, const std::optional<double>& value) {
     if (value) json[name] = *value;
   });
@@ -62,14 +56,7 @@ Json json_of(const JobResult& result) {
 JobResult result_of(const Json& json) {
   JobResult result;
   ExperimentJob& job = result.job;
-  json.at("id").get_to(job.id);
-  json.at("dataset").get_to(job.dataset);
-  json.at("sequence").get_to(job.sequence);
-  json.at("variant").get_to(job.variant);
-  json.at("strategy").get_to(job.strategy);
-  json.at("loops").get_to(job.loops);
-  json.at("reverse").get_to(job.reverse);
-  json.at("repetition").get_to(job.repetition);
+  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
   job.metric = parse_job_metric(json.at("metric").get<std::string>());
   result.state = parse_run_state(json.at("state").get<std::string>());
   json.at("reason").get_to(result.reason);

@@ -1,11 +1,11 @@
 #include "odometry/window/lens_estimator.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "odometry/window/lens_equations.h"
+#include "odometry/residual_pattern.h"
+#include "odometry/window/pseudo_inverse.h"
 
 namespace ldso {
 namespace {
@@ -13,8 +13,6 @@ namespace {
 /// Keyframes from one window that is used to the next. Windows overlap: each residual counts once on the average.
 constexpr int kSpacing = 3;
 constexpr int kLeastKeyframes = 5;
-/// The eight pixels of a pattern and the residuals of a point are not independent of each other.
-constexpr double kCorrelation = 8;
 /// Eigenvalues of the scaled system of the frames below this share of the largest are its gauge.
 constexpr double kGaugeShare = 1e-7;
 /// Precision of the given lens: standard deviation of the focal lengths as a share of them, and of the coefficient.
@@ -42,15 +40,11 @@ LensEquations without_frames(const LensEquations& full) {
   const Eigen::Index frames = full.b.size() - kLensGlobalDof;
   const Eigen::VectorXd scale = (full.H.diagonal().tail(frames).array() + 1e-9).sqrt().inverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * full.H.bottomRightCorner(frames, frames) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const double least = kGaugeShare * eigen.eigenvalues().maxCoeff();
-  const Eigen::VectorXd inverse = eigen.eigenvalues().unaryExpr([=](double e) { return e > least ? 1 / e : 0.0; });
-  const Eigen::MatrixXd basis = scale.asDiagonal() * eigen.eigenvectors();
-  const Eigen::MatrixXd coupling = full.H.topRightCorner(kLensGlobalDof, frames) * basis;
+  const Eigen::MatrixXd coupling = full.H.topRightCorner(kLensGlobalDof, frames) * scale.asDiagonal();
+  const Eigen::MatrixXd gain = coupling * pseudo_inverse(scaled, kGaugeShare);
   LensEquations reduced(kLensGlobalDof);
-  reduced.H =
-      full.H.topLeftCorner<kLensGlobalDof, kLensGlobalDof>() - coupling * inverse.asDiagonal() * coupling.transpose();
-  reduced.b = full.b.head<kLensGlobalDof>() - coupling * inverse.cwiseProduct(basis.transpose() * full.b.tail(frames));
+  reduced.H = full.H.topLeftCorner<kLensGlobalDof, kLensGlobalDof>() - gain * coupling.transpose();
+  reduced.b = full.b.head<kLensGlobalDof>() - gain * scale.cwiseProduct(full.b.tail(frames));
   return reduced;
 }
 
@@ -71,7 +65,7 @@ bool LensEstimator::add(const Window& window) {
   const LensMatrix H = reduced.H.bottomRightCorner<kLensDof, kLensDof>();
   const LensVector g = reduced.b.tail<kLensDof>() + reduced.H.bottomLeftCorner<kLensDof, kCameraDof>() * back;
   if (!H.allFinite() || !g.allFinite()) return false;
-  const double weight = kSpacing / (kCorrelation * window.size() * window.rmse * window.rmse);
+  const double weight = kSpacing / (kResidualCorrelation * window.size() * window.rmse * window.rmse);
   information_ += weight * H;
   gradient_ += weight * g;
   ++windows_;

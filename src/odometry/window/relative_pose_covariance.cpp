@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "odometry/residual_pattern.h"
 #include "odometry/window/gauge.h"
 
 namespace ldso {
 namespace {
 
-/// The eight pixels of a pattern and the residuals of a point share errors (interpolation, the host's noise): the
-/// variance that counting them as independent promises is too small by this. Measured on rendered sequences.
-constexpr double kCorrelation = 8;
 /// Least root mean square residual that is believed [grey levels].
 constexpr double kLeastRmse = 0.5;
 /// Of the poses of a window that was not optimized.
@@ -39,7 +37,7 @@ RelativePoseCovariance::RelativePoseCovariance(const Window& window) : window_(w
   const Eigen::MatrixXd scaled = scale.asDiagonal() * H * scale.asDiagonal();
   const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(H.rows(), H.cols()));
   const double rmse = std::max(kLeastRmse, window.rmse);
-  covariance_ = kCorrelation * rmse * rmse * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  covariance_ = kResidualCorrelation * rmse * rmse * (scale.asDiagonal() * inverse * scale.asDiagonal());
   log_scale_variance_ = drift_of_scale();
 }
 

@@ -1,19 +1,12 @@
 #include "odometry/window/window_prior.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "odometry/window/pseudo_inverse.h"
 
 namespace ldso {
 namespace {
 
-/// Inverse of a symmetric positive semi-definite matrix; directions without information stay without.
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
-  const double floor = 1e-12 * std::max(solver.eigenvalues().maxCoeff(), 1e-300);
-  Eigen::VectorXd inverse = solver.eigenvalues();
-  for (Eigen::Index i = 0; i < inverse.size(); ++i) inverse[i] = inverse[i] > floor ? 1.0 / inverse[i] : 0.0;
-  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
-}
+/// Of the largest eigenvalue: what is less is no information.
+constexpr double kLeastShare = 1e-12;
 
 }  // namespace
 
@@ -48,7 +41,8 @@ void WindowPrior::marginalize(int first, int count, const Eigen::VectorXd& own_H
   const Eigen::VectorXd scale = H_ordered.diagonal().cwiseAbs().cwiseMax(1e-9).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd H_s = scale.asDiagonal() * H_ordered * scale.asDiagonal();
   const Eigen::VectorXd b_s = scale.cwiseProduct(b_ordered);
-  const Eigen::MatrixXd gain = H_s.topRightCorner(rest, count) * pseudo_inverse(H_s.bottomRightCorner(count, count));
+  const Eigen::MatrixXd gain =
+      H_s.topRightCorner(rest, count) * pseudo_inverse(H_s.bottomRightCorner(count, count), kLeastShare);
   const Eigen::MatrixXd H_rest = H_s.topLeftCorner(rest, rest) - gain * H_s.bottomLeftCorner(count, rest);
   const Eigen::VectorXd b_rest = b_s.head(rest) - gain * b_s.tail(count);
   const Eigen::VectorXd unscale = scale.head(rest).cwiseInverse();
