@@ -44,6 +44,28 @@ TEST(Interpolation, IsExactForBilinearFunctions) {
   }
 }
 
+// A paraboloid with its true gradient: bilinear interpolation is off by up to a quarter of the curvature.
+TEST(Interpolation, QuadraticIsExactForParaboloids) {
+  Image<Texel> texels(9, 7);
+  const auto paraboloid = [](float x, float y) {
+    return 5.0f + 2.0f * x - y + 0.8f * x * x - 1.2f * y * y + 0.3f * x * y;
+  };
+  for (int j = 0; j < 7; ++j) {
+    for (int i = 0; i < 9; ++i) {
+      const auto x = static_cast<float>(i), y = static_cast<float>(j);
+      texels(i, j) = {paraboloid(x, y), 2.0f + 1.6f * x + 0.3f * y, -1.0f - 2.4f * y + 0.3f * x, 1.0f};
+    }
+  }
+  texels(0, 0).valid = 0;
+  for (float y = 0.1f; y < 6; y += 0.3f) {
+    for (float x = 0.1f; x < 8; x += 0.3f) {
+      const Texel texel = quadratic(std::as_const(texels).view(), x, y);
+      EXPECT_NEAR(texel.intensity, paraboloid(x, y), 1e-4f) << x << " " << y;
+      EXPECT_EQ(texel.valid > 0.999f, x > 1 || y > 1) << x << " " << y;
+    }
+  }
+}
+
 TEST(Interpolation, OfTexelsIsValidOnlyIfAllFourAre) {
   Image<Texel> texels = texels_of(bilinear_image(9, 7));
   texels(4, 3).valid = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "image/interpolation.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "odometry/alignment_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -26,7 +28,7 @@ struct alignas(64) BlockBuffer {
   float u[kBlock], v[kBlock];  // Pixels in the new image.
   float idepth[kBlock];        // In the new camera.
   float in_view[kBlock];       // 1 or 0.
-  float samples[4 * kBlock];
+  TexelBlock texels;
 };
 
 HWY_INLINE V load_some(const float* p, int count) {
@@ -86,8 +88,8 @@ HWY_INLINE void accumulate_block(const AlignmentPoints& points, int begin, int c
   for (int i = 0; i < kBlock; i += static_cast<int>(hn::Lanes(d))) {
     const int left = std::max(0, count - i);
     const V ref = load_some(points.intensity.data() + std::min(begin + i, points.size() - 1), left);
-    V intensity, gx, gy, valid;
-    hn::LoadInterleaved4(d, buffer.samples + 4 * i, intensity, gx, gy, valid);
+    const V intensity = hn::Load(d, buffer.texels.intensity + i), valid = hn::Load(d, buffer.texels.valid + i);
+    const V gx = hn::Load(d, buffer.texels.dx + i), gy = hn::Load(d, buffer.texels.dy + i);
     const auto usable = hn::And(hn::Gt(hn::Load(d, buffer.in_view + i), zero), hn::Gt(valid, hn::Set(d, 0.999f)));
     const V r = hn::Sub(intensity, hn::MulAdd(hn::Set(d, w.factor), ref, hn::Set(d, w.offset)));
     const V abs_r = hn::Abs(r);
@@ -129,7 +131,7 @@ void align_points_simd(const AlignmentPoints& points, int begin, int end, const 
   for (int i = begin; i < end; i += kBlock) {
     const int count = std::min(kBlock, end - i);
     warp_block(points, i, count, warp, buffer);
-    sample_eight(warp.texels, warp.width, buffer.u, buffer.v, buffer.samples);
+    sample_eight(warp.texels, warp.width, buffer.u, buffer.v, buffer.texels);
     accumulate_block(points, i, count, warp, buffer, sums);
   }
   const auto total = [&](V v) { return hn::GetLane(hn::SumOfLanes(d, v)); };
@@ -156,16 +158,6 @@ AlignmentSums align_points(const AlignmentPoints& points, int begin, int end, co
 
 namespace {
 
-Texel bilinear(const AlignmentWarp& w, float x, float y) {
-  const int ix = static_cast<int>(x), iy = static_cast<int>(y);
-  const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
-  const Texel* p = w.texels + static_cast<std::ptrdiff_t>(iy) * w.width + ix;
-  const auto mix = [&](float Texel::*m) {
-    return (1 - fy) * ((1 - fx) * p[0].*m + fx * p[1].*m) + fy * ((1 - fx) * p[w.width].*m + fx * p[w.width + 1].*m);
-  };
-  return {mix(&Texel::intensity), mix(&Texel::dx), mix(&Texel::dy), mix(&Texel::valid)};
-}
-
 void add_point_reference(const AlignmentPoints& points, int i, const AlignmentWarp& w, AlignmentSums& sums) {
   float p[3];
   for (int r = 0; r < 3; ++r) {
@@ -176,7 +168,7 @@ void add_point_reference(const AlignmentPoints& points, int i, const AlignmentWa
   const bool inside =
       p[2] > 1e-4f && u > 1 && v > 1 && u < static_cast<float>(w.width) - 2 && v < static_cast<float>(w.height) - 2;
   if (!inside) return;
-  const Texel t = bilinear(w, u, v);
+  const Texel t = quadratic({w.texels, w.width, w.height, w.width}, u, v);
   if (!(t.valid > 0.999f)) return;
   sums.count += 1;
   const float r = t.intensity - (w.factor * points.intensity[i] + w.offset);

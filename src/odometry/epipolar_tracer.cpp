@@ -52,7 +52,7 @@ bool make_immature_point(const Image<Texel>& image, float u, float v, ImmaturePo
     const float x = u + static_cast<float>(kPattern[i].dx), y = v + static_cast<float>(kPattern[i].dy);
     if (x < 1 || y < 1 || x >= static_cast<float>(image.width()) - 2 || y >= static_cast<float>(image.height()) - 2)
       return false;
-    const Texel t = bilinear(image.view(), x, y);
+    const Texel t = quadratic(image.view(), x, y);
     if (!(t.valid > 0.999f) || !std::isfinite(t.intensity)) return false;
     const float gradient2 = t.dx * t.dx + t.dy * t.dy;
     constexpr float c2 = kGradientWeight * kGradientWeight;
@@ -139,7 +139,7 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
     float H = 1, b = 0, energy = 0;
     for (int i = 0; i < kPatternSize; ++i) {
       const float x = current.x + pattern.offset_x[i], y = current.y + pattern.offset_y[i];
-      const Texel t = bilinear(image, x, y);
+      const Texel t = quadratic(image, x, y);
       if (!(t.valid > 0.999f)) {
         energy += 1e4f;
         continue;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "image/interpolation.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "odometry/search_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -23,7 +25,7 @@ void search_energies_simd(const PatternSearch& search, int count, float* energie
   const auto huber = hn::Set(d, kHuberThreshold);
   HWY_ALIGN float xs[kPatternSize];
   HWY_ALIGN float ys[kPatternSize];
-  HWY_ALIGN float samples[4 * kPatternSize];
+  TexelBlock texels;
   for (int n = 0; n < count; ++n) {
     const auto x = hn::Set(d, search.x + static_cast<float>(n) * search.step_x);
     const auto y = hn::Set(d, search.y + static_cast<float>(n) * search.step_y);
@@ -31,11 +33,10 @@ void search_energies_simd(const PatternSearch& search, int count, float* energie
       hn::Store(hn::Add(x, hn::LoadU(d, search.offset_x + i)), d, xs + i);
       hn::Store(hn::Add(y, hn::LoadU(d, search.offset_y + i)), d, ys + i);
     }
-    sample_eight(search.texels, search.width, xs, ys, samples);
+    sample_eight(search.texels, search.width, xs, ys, texels);
     auto energy = hn::Zero(d);
     for (size_t i = 0; i < kPatternSize; i += hn::Lanes(d)) {
-      auto intensity = hn::Zero(d), gx = hn::Zero(d), gy = hn::Zero(d), valid = hn::Zero(d);
-      hn::LoadInterleaved4(d, samples + 4 * i, intensity, gx, gy, valid);
+      const auto intensity = hn::Load(d, texels.intensity + i), valid = hn::Load(d, texels.valid + i);
       const auto difference = hn::Abs(hn::Sub(intensity, hn::LoadU(d, search.intensity + i)));
       const auto usable = hn::Gt(valid, hn::Set(d, 0.999f));
       const auto r = hn::IfThenElse(usable, difference, hn::Set(d, kInvalidResidual));
@@ -61,20 +62,15 @@ void search_energies(const PatternSearch& search, int count, float* energies) {
 }
 
 void search_energies_reference(const PatternSearch& search, int count, float* energies) {
+  // The height of the image is not known here, nor asked for.
+  const ImageView<const Texel> texels{search.texels, search.width, 0, search.width};
   for (int n = 0; n < count; ++n) {
     energies[n] = 0;
     for (int i = 0; i < kPatternSize; ++i) {
       const float x = search.x + static_cast<float>(n) * search.step_x + search.offset_x[i];
       const float y = search.y + static_cast<float>(n) * search.step_y + search.offset_y[i];
-      const int ix = static_cast<int>(x), iy = static_cast<int>(y);
-      const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
-      const Texel* p = search.texels + static_cast<std::ptrdiff_t>(iy) * search.width + ix;
-      const Texel* q = p + search.width;
-      const auto mix = [&](float Texel::*m) {
-        return (1 - fy) * ((1 - fx) * p[0].*m + fx * p[1].*m) + fy * ((1 - fx) * q[0].*m + fx * q[1].*m);
-      };
-      const bool usable = mix(&Texel::valid) > 0.999f;
-      const float r = usable ? std::fabs(mix(&Texel::intensity) - search.intensity[i]) : 30.0f;
+      const Texel t = quadratic(texels, x, y);
+      const float r = t.valid > 0.999f ? std::fabs(t.intensity - search.intensity[i]) : 30.0f;
       energies[n] += r <= kHuberThreshold ? r * r : kHuberThreshold * (2 * r - kHuberThreshold);
     }
   }

@@ -108,7 +108,8 @@ TEST_F(NormalEquationsTest, GradientMatchesDifferencesOfTheEnergy) {
     const double half_gradient = (above - below) / (4 * step);
     // |J^T W r| is at most sqrt(H_ii E).
     const double bound = std::sqrt(equations.H(variable, variable) * energy);
-    EXPECT_NEAR(equations.b[variable], half_gradient, 0.01 * std::abs(half_gradient) + 0.002 * bound)
+    // Central differences are a few per cent below the slope of the interpolated intensities.
+    EXPECT_NEAR(equations.b[variable], half_gradient, 0.035 * std::abs(half_gradient) + 0.002 * bound)
         << "variable " << variable << ", bound " << bound;
   };
   // Warps are in single precision: a twentieth of a pixel of the focal length would drown in their rounding.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "image/interpolation.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "odometry/window/residual_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -48,7 +50,7 @@ HWY_INLINE bool warp_pattern(const PatternJob& job, float* HWY_RESTRICT xs, floa
   return inside;
 }
 
-HWY_INLINE void sum_pattern(const PatternJob& job, const float* HWY_RESTRICT samples, PatternSums& out) {
+HWY_INLINE void sum_pattern(const PatternJob& job, const TexelBlock& texels, PatternSums& out) {
   const Lanes8 d;
   using V = hn::Vec<Lanes8>;
   const PatternWarp& w = *job.warp;
@@ -59,8 +61,8 @@ HWY_INLINE void sum_pattern(const PatternJob& job, const float* HWY_RESTRICT sam
   V gxx = zero, gxy = zero, gyy = zero, gxa = zero, gya = zero, gx_sum = zero, gy_sum = zero, aa = zero, a_sum = zero,
     w_sum = zero, rgx = zero, rgy = zero, ra = zero, r_sum = zero, energy = zero, valid_sum = zero;
   for (size_t i = 0; i < kPatternSize; i += hn::Lanes(d)) {
-    V intensity, gx, gy, valid;
-    hn::LoadInterleaved4(d, samples + 4 * i, intensity, gx, gy, valid);
+    const V intensity = hn::Load(d, texels.intensity + i), valid = hn::Load(d, texels.valid + i);
+    const V gx = hn::Load(d, texels.dx + i), gy = hn::Load(d, texels.dy + i);
     const V host = hn::Load(d, job.patch->intensity.data() + i);
     const V r = hn::Sub(intensity, hn::MulAdd(hn::Set(d, w.factor), host, hn::Set(d, w.offset)));
     // Mean of the gradient weights in both images; pixels that touch an invalid one count nothing.
@@ -113,12 +115,12 @@ HWY_INLINE void sum_pattern(const PatternJob& job, const float* HWY_RESTRICT sam
 void evaluate_patterns_simd(const PatternJob* jobs, PatternSums* sums, int count) {
   HWY_ALIGN float xs[kPatternSize];
   HWY_ALIGN float ys[kPatternSize];
-  HWY_ALIGN float samples[4 * kPatternSize];
+  TexelBlock texels;
   for (int i = 0; i < count; ++i) {
     sums[i].in_view = false;
     if (!warp_pattern(jobs[i], xs, ys)) continue;
-    sample_eight(jobs[i].warp->texels, jobs[i].warp->width, xs, ys, samples);
-    sum_pattern(jobs[i], samples, sums[i]);
+    sample_eight(jobs[i].warp->texels, jobs[i].warp->width, xs, ys, texels);
+    sum_pattern(jobs[i], texels, sums[i]);
   }
 }
 
@@ -137,21 +139,6 @@ void evaluate_patterns(const PatternJob* jobs, PatternSums* sums, int count) {
 
 namespace {
 
-Texel sample_bilinear(const PatternWarp& w, float x, float y) {
-  const int ix = static_cast<int>(x);
-  const int iy = static_cast<int>(y);
-  const float fx = x - static_cast<float>(ix);
-  const float fy = y - static_cast<float>(iy);
-  const auto at = [&](int px, int py) -> const Texel& {
-    return w.texels[static_cast<std::ptrdiff_t>(py) * w.width + px];
-  };
-  const auto mix = [&](float Texel::*m) {
-    return (1 - fy) * ((1 - fx) * at(ix, iy).*m + fx * at(ix + 1, iy).*m) +
-           fy * ((1 - fx) * at(ix, iy + 1).*m + fx * at(ix + 1, iy + 1).*m);
-  };
-  return {mix(&Texel::intensity), mix(&Texel::dx), mix(&Texel::dy), mix(&Texel::valid)};
-}
-
 bool evaluate_reference(const PatternJob& job, PatternSums& s) {
   const PatternWarp& w = *job.warp;
   s = {};
@@ -166,7 +153,7 @@ bool evaluate_reference(const PatternJob& job, PatternSums& s) {
     const bool inside =
         p[2] > 0 && x > 1 && y > 1 && x < static_cast<float>(w.width) - 2 && y < static_cast<float>(w.height) - 2;
     if (!inside) return false;
-    const Texel t = sample_bilinear(w, x, y);
+    const Texel t = quadratic({w.texels, w.width, w.height, w.width}, x, y);
     if (!(t.valid > 0.999f)) continue;
     ++valid;
     const float host = job.patch->intensity[i];
