@@ -27,7 +27,7 @@ Image<Texel> textured_image() {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) image(x, y) = blocks[(y / 9) * 40 + x / 9] + static_cast<float>(random() % 8);
   }
-  return std::move(build_pyramid(std::as_const(image).view()).levels.front());
+  return std::move(build_pyramid(image.view()).levels.front());
 }
 
 MapPoint point_at(float u, float v, float idepth) {

@@ -30,7 +30,7 @@ std::shared_ptr<const PreparedFrame> frame_of(std::int64_t id, int place) {
   auto frame = std::make_shared<PreparedFrame>();
   frame->id = id;
   frame->timestamp = static_cast<double>(id);
-  frame->pyramid = build_pyramid(std::as_const(image).view());
+  frame->pyramid = build_pyramid(image.view());
   return frame;
 }
 
