@@ -62,6 +62,7 @@ grep -q '1.220' "$WORK/kitti/summary/tables/ate_kitti.tex" || fail "LDSO's publi
 
 # Options of the summary.
 expect_exit 0 experiment summarize "$a" -o "$WORK/elsewhere" --log-axes --no-trajectories --quiet
+[[ ! -s $WORK/log ]] || fail "--quiet has printed something"
 grep -q logarithmic "$WORK/elsewhere/figures/curves_ate_euroc.svg" || fail "the axis is not logarithmic"
 if compgen -G "$WORK/elsewhere/figures/trajectory_*" >/dev/null; then fail "trajectories were drawn"; fi
 printf -- '- {system: X, source: here, dataset: euroc, figure: ate, unit: m, values: {MH_01: 0.5}}\n' >"$WORK/others.yaml"

@@ -152,7 +152,7 @@ int run_experiment(ExperimentPlan plan, const ExperimentRunOptions& given) {
     return 0;
   }
   const RunnerReport report = run_all(jobs, plan, options);
-  summarize_experiment(options.out);
+  summarize_experiment(options.out, options.quiet);
   return report_end(report, options);
 }
 
