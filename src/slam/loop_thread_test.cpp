@@ -217,6 +217,17 @@ TEST_F(LoopThreadTest, AFailureWithoutALog) {
   EXPECT_EQ(thread.finish(), nullptr);
 }
 
+/// Nobody would hear of the loops: what waits is not worth the time.
+TEST_F(LoopThreadTest, AnEndWithoutFinishDropsWhatWaits) {
+  std::vector<std::string> log;
+  {
+    LoopThread thread(LoopSettings{}, [&](LogLevel, const std::string& message) { log.push_back(message); });
+    for (int i = 0; i < 14; ++i) thread.add(keyframes_[i], camera());
+    thread.add(keyframes_[0], camera());  // Would be heard of: the frame id is there.
+  }
+  EXPECT_TRUE(log.empty());
+}
+
 TEST_F(LoopThreadTest, MayEndWithoutFinish) {
   { const LoopThread idle(LoopSettings{}, {}); }
   {
