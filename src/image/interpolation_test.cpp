@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace ldso {
 namespace {
@@ -85,6 +86,19 @@ TEST(Interpolation, SafeVersionIncludesTheLastPixelAndNothingBeyond) {
   const Image<float> single(1, 1);
   EXPECT_FALSE(bilinear_if_inside(single.view(), 0.0f, 0.0f));
   EXPECT_FALSE(bilinear_if_inside(ImageView<const float>{}, 0.0f, 0.0f));
+}
+
+TEST(ImageView, MayLoseButNotGainTheRightToWrite) {
+  static_assert(std::is_convertible_v<ImageView<float>, ImageView<const float>>);
+  static_assert(!std::is_convertible_v<ImageView<const float>, ImageView<float>>);
+  static_assert(!std::is_convertible_v<ImageView<float>, ImageView<const double>>);
+  Image<float> image = bilinear_image(9, 7);
+  const ImageView<float> part{image.data() + 2, 5, 7, 9};
+  const ImageView<const float> same = part;
+  EXPECT_EQ(same.data, part.data);
+  EXPECT_EQ(same.width, 5);
+  EXPECT_EQ(same.height, 7);
+  EXPECT_EQ(same(3, 6), value_at(5, 6));
 }
 
 }  // namespace
