@@ -42,8 +42,8 @@ RunFigures figures_of(const Json& run) {
   return figures;
 }
 
-std::map<std::string, StageTime> stages_of(const Json& run) {
-  std::map<std::string, StageTime> stages;
+std::map<std::string, RunStage> stages_of(const Json& run) {
+  std::map<std::string, RunStage> stages;
   const Json all = at(run, "/timing/stages");
   for (const auto& [name, stage] : all.items()) {
     stages[name] = {stage.at("calls").get<std::int64_t>(), stage.at("total_ms").get<double>()};

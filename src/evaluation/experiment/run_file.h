@@ -21,7 +21,7 @@ struct RunOutcome {
   std::filesystem::file_time_type written{};  ///< When, if it is not pending.
   bool has_odometry = false;  ///< Loops have moved the trajectory: trajectory_odometry.txt differs from it.
   RunFigures figures;
-  std::map<std::string, StageTime> stages;
+  std::map<std::string, RunStage> stages;
   /// As `ldso run` measured them against the ground truth of the sequence itself, if it has one.
   TrajectoryErrors errors, odometry_errors;
 };
