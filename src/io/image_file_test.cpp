@@ -57,7 +57,7 @@ TEST(ImageFile, ColourIsWeightedByBt601) {
   const Image<float> grey = decode_grey_image(encode(".png", image), "a");
   for (int y = 0; y < 37; ++y) {
     for (int x = 0; x < 51; ++x) {
-      const cv::Vec3b bgr = image.at<cv::Vec3b>(y, x);
+      const auto& bgr = image.at<cv::Vec3b>(y, x);
       ASSERT_NEAR(grey(x, y), 0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2], 1.01);
     }
   }

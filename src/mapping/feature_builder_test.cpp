@@ -67,13 +67,13 @@ class FeatureBuilderTest : public testing::Test {
     const auto found = std::find_if(features.features.begin(), features.features.end(),
                                     [&](const MapFeature& f) { return f.feature.u == u && f.feature.v == v; });
     if (found != features.features.end()) return *found;
-    static const MapFeature none = [] {
+    static const MapFeature kNone = [] {
       MapFeature feature;
       feature.idepth = -1;
       return feature;
     }();
     ADD_FAILURE() << "no feature at " << u << ", " << v;
-    return none;
+    return kNone;
   }
 
   static Vocabulary* vocabulary_;
