@@ -213,6 +213,22 @@ def check_include_circles(headers):
         visit(header, [header])
 
 
+def check_one_definition(headers):
+    """A class that two headers define has two layouts under one name, and the linker picks functions of either."""
+    first = {}
+    for header in headers:
+        space = ""
+        for number, line in code_lines(header):
+            opened = re.match(r"namespace ([\w:]+) \{", line)
+            space = opened.group(1) if opened else space
+            defined = re.match(r"(?:struct|class|union|enum(?: class)?) (\w+)(?: final)?(?: ?:[^{;]*)? ?\{", line)
+            if not defined:
+                continue
+            other = first.setdefault((space, defined.group(1)), header)
+            if other != header:
+                problem(header, number, f"{space}::{defined.group(1)} is also in {other.relative_to(ROOT)}")
+
+
 def main():
     public = sorted((ROOT / "include").rglob("*.h"))
     sources = sorted(p for p in (ROOT / "src").rglob("*") if p.suffix in (".h", ".cpp"))
@@ -240,7 +256,9 @@ def main():
             if not path.stem.endswith("-inl"):
                 check_pragma_once(path)
             check_habits(path, HEADER_HABITS)
-    check_include_circles(public + [p for p in sources if p.suffix == ".h"])
+    headers = public + [p for p in sources if p.suffix == ".h"]
+    check_include_circles(headers)
+    check_one_definition(headers)
     check_build_files()
     print("\n".join(problems) if problems else f"{len(public) + len(sources)} files are as they should be")
     return 1 if problems else 0

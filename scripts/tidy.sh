@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# tidy.sh [--changed [BASE] | FILES...]: clang-tidy 14 with the rules of .clang-tidy, one file at a time.
+# tidy.sh [--changed [BASE] | FILES...]: clang-tidy 14 with the rules of .clang-tidy.
 #
-# Without arguments: all sources (an hour on two cores). --changed: those that differ from BASE (default: HEAD) and
-# those that include a header that does. LDSO_TIDY_BUILD names a configured build folder (default: build/release).
+# Without arguments: all sources, many at a time (scripts/tidy_batches.py; half an hour on a core). FILES: one by one.
+# --changed: those that differ from BASE (default: HEAD) and those that include a header that does. LDSO_TIDY_BUILD names
+# a configured build folder (default: build/release; bench/ is looked at if it is part of that build).
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,7 +17,6 @@ if [[ ! -f $build/compile_commands.json ]]; then
   cmake --preset release
 fi
 
-all_sources() { find src bench -name '*.cpp' | sort; }
 files=()
 if [[ ${1:-} == --changed ]]; then
   mapfile -t changed < <({ git diff --name-only --diff-filter=d "${2:-HEAD}"; git ls-files -o --exclude-standard; } |
@@ -36,7 +36,7 @@ if [[ ${1:-} == --changed ]]; then
 elif (($# > 0)); then
   files=("$@")
 else
-  mapfile -t files < <(all_sources)
+  exec python3 scripts/tidy_batches.py "$build"
 fi
 
 failed=0

@@ -30,6 +30,9 @@ expect_true "the map is initialized early" "$(json "$out/run.json" "['initialize
 expect_true "stages were timed" \
   "{'decode', 'preprocess', 'odometry'} <= set($(json "$out/run.json" "['timing']['stages']"))"
 
+expect_true "libraries have versions" "all(v[:1].isdigit() for v in $(json "$out/run.json" "['versions']['libraries']").values())"
+expect_true "Ceres is one of them" "'Ceres' in $(json "$out/run.json" "['versions']['libraries']")"
+
 # Timestamps are those of the sequence.
 awk '!/^#/ && NF { print $1 }' "$out/trajectory.txt" | sed 's/0*$//' | sort >"$WORK/times_out"
 awk '!/^#/ && NF { printf "%.9f\n", $2 }' "$SEQUENCE/times.txt" | sed 's/0*$//' | sort >"$WORK/times_in"

@@ -35,3 +35,9 @@ expect_output '^runs +18 finished, 0 failed, 0 pending$'
 expect_exit 0 experiment demo --size small -o "$out"
 expect_output '^run here       0$'
 ! grep -q rendering "$WORK/log" || fail "stand-ins that were there were rendered again"
+
+# The same in the other order, and in silence; the summary is written all the same.
+rm -r "$out/summary"
+expect_exit 0 experiment --size small -o "$out" --demo --quiet
+[[ ! -s $WORK/log ]] || fail "--quiet has printed something"
+[[ -s $out/summary/index.html ]] || fail "--quiet has left the summary out"

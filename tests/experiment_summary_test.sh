@@ -62,6 +62,7 @@ grep -q '1.220' "$WORK/kitti/summary/tables/ate_kitti.tex" || fail "LDSO's publi
 
 # Options of the summary.
 expect_exit 0 experiment summarize "$a" -o "$WORK/elsewhere" --log-axes --no-trajectories --quiet
+[[ ! -s $WORK/log ]] || fail "--quiet has printed something"
 grep -q logarithmic "$WORK/elsewhere/figures/curves_ate_euroc.svg" || fail "the axis is not logarithmic"
 if compgen -G "$WORK/elsewhere/figures/trajectory_*" >/dev/null; then fail "trajectories were drawn"; fi
 printf -- '- {system: X, source: here, dataset: euroc, figure: ate, unit: m, values: {MH_01: 0.5}}\n' >"$WORK/others.yaml"
@@ -92,6 +93,7 @@ PY
 expect_exit 0 experiment summarize "$b"
 expect_output '^warning: .*forward_1/run.json: is damaged'
 expect_output '64 finished, 2 failed, 2 pending'
+grep -q '<small>([0-9]*/[0-9]* failed)</small>' "$b/summary/index.html" || fail "failed runs are not in the tables of the page"
 grep -q 'killed by signal 11' "$b/summary/summary.md" || fail "the crash is not in the summary"
 grep -q 'lost at frame 70 of 120: too few points' "$b/summary/summary.md" || fail "the lost run is not in the summary"
 grep -q '>failed: 2<' "$b/summary/figures/blocks_ate_euroc.svg" || fail "failed runs are not in the figure"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace ldso {
@@ -17,6 +18,9 @@ struct ImageView {
   T& operator()(int x, int y) const { return data[y * stride + x]; }
   T* row(int y) const { return data + y * stride; }
   bool empty() const { return width == 0 || height == 0; }
+
+  /// A view to write through is also one to read through, as with std::span.
+  operator ImageView<const T>() const requires(!std::is_const_v<T>) { return {data, width, height, stride}; }
 };
 
 /// Owning, contiguous, row-major image (stride equals width).

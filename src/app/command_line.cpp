@@ -51,13 +51,15 @@ std::string see_help(const CLI::App& command) {
 std::string describe_extras(const CLI::App& app) {
   const CLI::App& command = chosen_command(app);
   const std::string help = see_help(command);
-  for (const std::string& argument : app.remaining(true)) {
-    if (argument.size() < 2 || argument[0] != '-') continue;
-    return "unknown option " + argument + "; did you mean " +
-           nearest_name(without_value(argument), option_names(command)) + "?" + help;
+  const std::vector<std::string> extras = app.remaining(true);
+  const auto option = std::find_if(extras.begin(), extras.end(),
+                                   [](const std::string& word) { return word.size() >= 2 && word[0] == '-'; });
+  if (option != extras.end()) {
+    return "unknown option " + *option + "; did you mean " +
+           nearest_name(without_value(*option), option_names(command)) + "?" + help;
   }
   std::string arguments;
-  for (const std::string& argument : app.remaining(true)) arguments.append(" ").append(argument);
+  for (const std::string& argument : extras) arguments.append(" ").append(argument);
   return "too many arguments:" + arguments + help;
 }
 

@@ -16,6 +16,7 @@
 #include "evaluation/experiment/job_file.h"
 #include "evaluation/experiment/job_folder.h"
 #include "evaluation/experiment/job_runner.h"
+#include "evaluation/experiment/run_file.h"
 #include "io/nearest_name.h"
 #include "ldso/error.h"
 
@@ -55,15 +56,15 @@ void check_sequences(ExperimentPlan& plan, const ExperimentRunOptions& options) 
 
 /// Whether a job is to be printed; makes it open again if it has failed and is to be retried.
 bool is_to_be_printed(const fs::path& folder, bool retry_failed, int& busy) {
-  const JobState state = read_outcome(folder).state;
-  if (state == JobState::kFinished || (state == JobState::kFailed && !retry_failed)) return false;
+  const RunState state = read_run(folder).state;
+  if (state == RunState::kFinished || (state == RunState::kFailed && !retry_failed)) return false;
   make_output_folder(folder);
   const std::optional<JobLock> lock = JobLock::try_acquire(folder);
   if (!lock) {
     ++busy;
     return false;
   }
-  clear_outcome(folder);
+  clear_run(folder);
   return true;
 }
 
@@ -152,7 +153,7 @@ int run_experiment(ExperimentPlan plan, const ExperimentRunOptions& given) {
     return 0;
   }
   const RunnerReport report = run_all(jobs, plan, options);
-  summarize_experiment(options.out);
+  summarize_experiment(options.out, options.quiet);
   return report_end(report, options);
 }
 

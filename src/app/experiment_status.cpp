@@ -12,6 +12,7 @@
 
 #include "evaluation/experiment/experiment_listing.h"
 #include "evaluation/experiment/job_folder.h"
+#include "evaluation/experiment/run_file.h"
 
 namespace ldso {
 namespace {
@@ -52,10 +53,10 @@ Status read_status(const fs::path& experiment, const ExperimentListing& listing)
   for (const std::string& id : listing.jobs) {
     const fs::path folder = job_folder(experiment, id);
     Counts& counts = counts_of(status.sequences, id.substr(0, id.find('/')));
-    const JobOutcome outcome = read_outcome(folder);
-    if (outcome.state == JobState::kFinished) {
+    const RunOutcome outcome = read_run(folder);
+    if (outcome.state == RunState::kFinished) {
       ++counts.finished;
-    } else if (outcome.state == JobState::kFailed) {
+    } else if (outcome.state == RunState::kFailed) {
       ++counts.failed;
       status.failures.emplace_back(id, outcome.reason);
     } else {

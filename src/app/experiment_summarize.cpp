@@ -40,9 +40,9 @@ void summarize(SummarizeArguments& a) {
   }
   const SummaryReport report = write_summary(options);
   print_warnings(report);
-  if (!a.quiet) std::cout << report.overview;
-  std::cout << "runs      " << report.finished << " finished, " << report.failed << " failed, " << report.pending
-            << " pending\n"
+  if (a.quiet) return;
+  std::cout << report.overview << "runs      " << report.finished << " finished, " << report.failed << " failed, "
+            << report.pending << " pending\n"
             << "summary   " << (options.output / "index.html").string() << " (" << report.figures << " figures, "
             << report.tables << " tables)\n";
 }
@@ -61,12 +61,13 @@ void add_summarize_command(CLI::App& experiment, int& /*exit_code*/) {
   command->add_flag("--log-axes", options.curves.log_axis, "Logarithmic error axes of the cumulative curves");
   command->add_flag("--png", arguments->png, "Also write each figure as PNG (takes rsvg-convert)");
   command->add_flag("--no-trajectories", arguments->no_trajectories, "Do not draw trajectories");
-  command->add_flag("--quiet", arguments->quiet, "Do not print the tables");
+  command->add_flag("--quiet", arguments->quiet, "Print warnings only");
   command->callback([arguments] { summarize(*arguments); });
 }
 
-void summarize_experiment(const fs::path& experiment) {
+void summarize_experiment(const fs::path& experiment, bool quiet) {
   SummarizeArguments arguments;
+  arguments.quiet = quiet;
   arguments.options.experiment = experiment;
   summarize(arguments);
 }

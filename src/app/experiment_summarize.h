@@ -9,7 +9,8 @@ namespace ldso {
 /// Adds the subcommand to `experiment`.
 void add_summarize_command(CLI::App& experiment, int& exit_code);
 
-/// Writes all figures and tables into `<experiment>/summary` and prints where they are: for the end of a plan.
-void summarize_experiment(const std::filesystem::path& experiment);
+/// Writes all figures and tables into `<experiment>/summary`, for the end of a plan. Prints the tables and where all of
+/// it is, warnings only if `quiet`.
+void summarize_experiment(const std::filesystem::path& experiment, bool quiet);
 
 }  // namespace ldso

@@ -13,6 +13,7 @@
 
 #include "app/run_files.h"
 #include "evaluation/experiment/job_folder.h"
+#include "evaluation/experiment/run_file.h"
 #include "ldso/error.h"
 
 namespace ldso {
@@ -56,7 +57,7 @@ class OutputToFile {
 };
 
 bool has_ended(const fs::path& folder) {
-  if (read_outcome(folder).state == JobState::kOpen) return false;
+  if (read_run(folder).state == RunState::kPending) return false;
   std::cout << folder.string() << ": has a result already\n";
   return true;
 }
@@ -88,9 +89,9 @@ int run_as_job(const fs::path& folder, const std::function<int()>& run) {
     return kBusyExitCode;
   }
   if (has_ended(folder)) return 0;
-  clear_outcome(folder);
+  clear_run(folder);
   const LoggedRun result = run_logged(folder, run);
-  if (result.error && read_outcome(folder).state == JobState::kOpen)
+  if (result.error && read_run(folder).state == RunState::kPending)
     write_failure(folder, {1, std::nullopt, *result.error});
   if (result.error) std::cerr << "error: " << *result.error << "\n";
   return result.exit_code;

@@ -44,7 +44,8 @@ void TrainingImages::add_sequence(const fs::path& path, int stride) {
   warnings_.insert(warnings_.end(), dataset->warnings().begin(), dataset->warnings().end());
   FramePreprocessor preprocessor(dataset->calibration(), {});
   const int count = dataset->size();
-  sequences_.push_back(std::make_unique<Sequence>(std::move(dataset), std::move(preprocessor)));
+  // Not make_unique, which Clang before 16 cannot do with aggregates.
+  sequences_.push_back(std::unique_ptr<Sequence>(new Sequence{std::move(dataset), std::move(preprocessor), {}}));
   for (int i = 0; i < count; ++i) entries_.push_back({sequences_.back().get(), i, {}});
 }
 

@@ -27,6 +27,7 @@ std::string compiler_version() {
 nlohmann::ordered_json versions_json() {
   nlohmann::ordered_json libraries = {
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"Ceres", LDSO_CERES_VERSION},
       {"OpenCV", LDSO_OPENCV_VERSION},
       {"Highway", LDSO_HIGHWAY_VERSION},
       {"yaml-cpp", LDSO_YAML_CPP_VERSION},

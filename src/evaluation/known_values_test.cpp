@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 std::optional<fs::path> results_folder() {
   const char* data = std::getenv("LDSO_DATA");
   if (data == nullptr) return std::nullopt;
-  const fs::path folder = fs::path(data) / "trajectories" / "results";
+  fs::path folder = fs::path(data) / "trajectories" / "results";
   if (!fs::exists(folder)) return std::nullopt;
   return folder;
 }

@@ -58,7 +58,7 @@ void validate(const CameraCalibration& c) {
 
 Eigen::Vector2d perspective(const Eigen::Vector3d& p, CameraModel::Matrix23* J_point) {
   const double iz = 1 / p.z();
-  const Eigen::Vector2d m = p.head<2>() * iz;
+  Eigen::Vector2d m = p.head<2>() * iz;
   if (J_point) *J_point << iz, 0, -m.x() * iz, 0, iz, -m.y() * iz;
   return m;
 }

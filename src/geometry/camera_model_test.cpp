@@ -23,6 +23,7 @@ struct Case {
   double least_part_with_rays = 1;  ///< Of the image: some lenses see behind or fold before its corners.
 };
 
+// The name is GoogleTest's. NOLINTNEXTLINE(readability-identifier-naming)
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 CameraCalibration calibration(CameraModelKind model, int width, int height, const std::array<double, 4>& intrinsics,

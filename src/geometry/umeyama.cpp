@@ -82,7 +82,7 @@ Sim3d umeyama(const Points& from, const Points& to, AlignmentMode mode) {
     fail("all positions of one set are the same", "align with mode none");
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d d = svd.singularValues();
+  const Eigen::Vector3d& d = svd.singularValues();
   if (mode != AlignmentMode::kScale && d[1] <= 1e-12 * d[0]) {
     fail("the positions are on a line, the rotation about it is not determined", "align with mode scale or none");
   }

@@ -28,7 +28,7 @@ PreparedFrame FramePreprocessor::process(const RawFrame& raw) const {
   photometric_.apply(raw.grey.view(), image.view());
   if (!rectifier_.is_identity()) {
     MaskedImage rectified(output_camera().width, output_camera().height);
-    rectifier_.apply(std::as_const(image).view(), rectified.view());
+    rectifier_.apply(image.view(), rectified.view());
     image = std::move(rectified);
   }
 
@@ -39,7 +39,7 @@ PreparedFrame FramePreprocessor::process(const RawFrame& raw) const {
     frame.exposure_ms = *raw.exposure_ms;
     frame.exposure_known = true;
   }
-  frame.pyramid = build_pyramid(std::as_const(image).view());
+  frame.pyramid = build_pyramid(image.view());
   return frame;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <type_traits>
 
 namespace ldso {
 namespace {
@@ -72,7 +72,7 @@ TEST(Interpolation, OfTexelsIsValidOnlyIfAllFourAre) {
   for (float y = 1.5f; y < 6; ++y) {
     for (float x = 1.5f; x < 8; ++x) {
       const bool touches = std::abs(x - 4) < 1 && std::abs(y - 3) < 1;
-      EXPECT_EQ(bilinear(std::as_const(texels).view(), x, y).valid, touches ? 0.0f : 1.0f) << x << " " << y;
+      EXPECT_EQ(bilinear(texels.view(), x, y).valid, touches ? 0.0f : 1.0f) << x << " " << y;
     }
   }
 }
@@ -108,6 +108,19 @@ TEST(Interpolation, SafeVersionIncludesTheLastPixelAndNothingBeyond) {
   const Image<float> single(1, 1);
   EXPECT_FALSE(bilinear_if_inside(single.view(), 0.0f, 0.0f));
   EXPECT_FALSE(bilinear_if_inside(ImageView<const float>{}, 0.0f, 0.0f));
+}
+
+TEST(ImageView, MayLoseButNotGainTheRightToWrite) {
+  static_assert(std::is_convertible_v<ImageView<float>, ImageView<const float>>);
+  static_assert(!std::is_convertible_v<ImageView<const float>, ImageView<float>>);
+  static_assert(!std::is_convertible_v<ImageView<float>, ImageView<const double>>);
+  Image<float> image = bilinear_image(9, 7);
+  const ImageView<float> part{image.data() + 2, 5, 7, 9};
+  const ImageView<const float> same = part;
+  EXPECT_EQ(same.data, part.data);
+  EXPECT_EQ(same.width, 5);
+  EXPECT_EQ(same.height, 7);
+  EXPECT_EQ(same(3, 6), value_at(5, 6));
 }
 
 }  // namespace

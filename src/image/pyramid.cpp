@@ -18,7 +18,7 @@ ImagePyramid build_pyramid(ImageView<const float> masked) {
       MaskedImage coarser(view.width / 2, view.height / 2);
       downsample(view, coarser.view());
       current = std::move(coarser);
-      view = std::as_const(current).view();
+      view = current.view();
     }
     Image<Texel>& texels = pyramid.levels.emplace_back(view.width, view.height);
     make_texels(view, texels.view());

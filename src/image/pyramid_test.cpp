@@ -61,7 +61,7 @@ TEST(Pyramid, SamplesAndDifferentiatesASmoothFunctionOnEveryLevel) {
 TEST(Pyramid, InvalidityReachesAllLevels) {
   Image<float> image = smooth_image(640, 480);
   image(333, 222) = mark_invalid(254.0f);
-  const ImagePyramid pyramid = build_pyramid(std::as_const(image).view());
+  const ImagePyramid pyramid = build_pyramid(image.view());
   for (int level = 0; level < static_cast<int>(pyramid.levels.size()); ++level) {
     const Image<Texel>& texels = pyramid.levels[level];
     const int cx = 333 >> level, cy = 222 >> level;

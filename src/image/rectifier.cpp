@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "image/masked_image.h"
 #include "image/pinhole_fit.h"
@@ -101,7 +100,7 @@ void Rectifier::apply(ImageView<const float> input, ImageView<float> output) con
   MaskedImage halved;
   for (int i = 0; i < halvings_; ++i) {
     halved = halve(input);
-    input = std::as_const(halved).view();
+    input = halved.view();
   }
   remap(input, table_, output);
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kHuge = 1e15;
 
 const std::map<std::string, SettingRange, std::less<>>& ranges() {
-  static const std::map<std::string, SettingRange, std::less<>> table{
+  static const std::map<std::string, SettingRange, std::less<>> kTable{
       {"threads", {1, 256}},
       {"selection.candidates", {50, 100000}},
       {"selection.corner_quality", {0, 1}},
@@ -85,7 +85,7 @@ const std::map<std::string, SettingRange, std::less<>>& ranges() {
       {"loops.min_covered_cells", {0, 1}},
       {"loops.max_drift", {0, 1000000}},
   };
-  return table;
+  return kTable;
 }
 
 std::string text(double value) {

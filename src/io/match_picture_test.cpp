@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace ldso {
@@ -27,7 +26,7 @@ int colourfulness(const Rgb& p) {
 TEST(MatchPicture, HasTheImagesSideBySide) {
   Image<float> left(7, 5, 10.4F), right(9, 3, 300.F);
   left(2, 4) = -3;
-  const Image<Rgb> picture = draw_matches(std::as_const(left).view(), std::as_const(right).view(), {}, "");
+  const Image<Rgb> picture = draw_matches(left.view(), right.view(), {}, "");
   ASSERT_EQ(picture.width(), 16);
   ASSERT_EQ(picture.height(), 5);
   EXPECT_EQ(picture(6, 0), (Rgb{10, 10, 10}));

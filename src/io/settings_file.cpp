@@ -137,7 +137,8 @@ class YamlReader {
     for (const auto& entry : node) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
       if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-        throw Error(where(entry.first), "'" + prefix + key + "' is set twice", "remove one of the lines");
+        throw Error(where(entry.first), std::string("'").append(prefix).append(key).append("' is set twice"),
+                    "remove one of the lines");
       }
       seen.push_back(key);
       bool known = false;

@@ -97,7 +97,7 @@ fs::path make_tum_mono_zip(const fs::path& folder, int count) {
 }
 
 fs::path make_kitti(const fs::path& folder, int count) {
-  const fs::path sequence = folder / "sequences" / "07";
+  fs::path sequence = folder / "sequences" / "07";
   std::string times;
   std::string poses;
   for (int i = 0; i < count; ++i) {
@@ -118,8 +118,8 @@ fs::path make_euroc(const fs::path& folder, int count) {
   std::string truth = "#timestamp, p_RS_R_x [m], ...\n";
   for (int i = 0; i < count; ++i) {
     const std::string time = std::to_string(std::int64_t{1403715273000000000} + std::int64_t{100000000} * i);
-    frames += time + "," + time + ".png\r\n";
-    truth += time + numbered(",%d,-1,0,1,0,0,0,0,0,0\n", i);
+    frames.append(time).append(",").append(time).append(".png\r\n");
+    truth.append(time).append(numbered(",%d,-1,0,1,0,0,0,0,0,0\n", i));
     write_frame(mav / "cam0" / "data" / (time + ".png"), i);
   }
   write_text(mav / "cam0" / "data.csv", frames);
@@ -152,7 +152,7 @@ fs::path make_image_folder(const fs::path& folder, int count) {
 }
 
 fs::path make_video(const fs::path& folder, int count) {
-  const fs::path file = folder / "drive.avi";
+  fs::path file = folder / "drive.avi";
   cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0,
                          cv::Size(kTestWidth, kTestHeight));
   EXPECT_TRUE(writer.isOpened());

@@ -27,7 +27,7 @@ Image<Texel> textured_image() {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) image(x, y) = blocks[(y / 9) * 40 + x / 9] + static_cast<float>(random() % 8);
   }
-  return std::move(build_pyramid(std::as_const(image).view()).levels.front());
+  return std::move(build_pyramid(image.view()).levels.front());
 }
 
 MapPoint point_at(float u, float v, float idepth) {
@@ -67,13 +67,13 @@ class FeatureBuilderTest : public testing::Test {
     const auto found = std::find_if(features.features.begin(), features.features.end(),
                                     [&](const MapFeature& f) { return f.feature.u == u && f.feature.v == v; });
     if (found != features.features.end()) return *found;
-    static const MapFeature none = [] {
+    static const MapFeature kNone = [] {
       MapFeature feature;
       feature.idepth = -1;
       return feature;
     }();
     ADD_FAILURE() << "no feature at " << u << ", " << v;
-    return none;
+    return kNone;
   }
 
   static Vocabulary* vocabulary_;

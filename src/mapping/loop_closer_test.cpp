@@ -20,8 +20,8 @@ using loop_test::circle_drive;
 using loop_test::Drive;
 
 std::shared_ptr<const Vocabulary> vocabulary() {
-  static const auto shared = std::make_shared<const Vocabulary>(loop_test::flat_vocabulary());
-  return shared;
+  static const auto kShared = std::make_shared<const Vocabulary>(loop_test::flat_vocabulary());
+  return kShared;
 }
 
 /// What the tests depend on.

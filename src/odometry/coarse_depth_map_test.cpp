@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,17 @@ TEST_F(CoarseDepthMapTest, NothingAtTheBorderNorOnInvalidPixels) {
     ASSERT_GE(points.v[i], 2);
     ASSERT_LT(points.v[i], 238);
   }
+}
+
+TEST_F(CoarseDepthMapTest, PointsFarOutsideAreLeftOut) {
+  const auto frame = scene_.render(0, SE3d());
+  std::vector<DepthSample> samples;
+  for (const float far : {-1e30f, -3e9f, -2.0f, 320.0f, 3e9f, 1e30f, std::numeric_limits<float>::infinity(), NAN}) {
+    samples.push_back({far, 60, 0.4f, 1});
+    samples.push_back({50, far, 0.4f, 1});
+  }
+  const CoarseDepthMap map = make_coarse_depth_map(samples, frame->pyramid);
+  for (const AlignmentPoints& level : map.levels) EXPECT_EQ(level.size(), 0);
 }
 
 TEST_F(CoarseDepthMapTest, NoPointsGiveEmptyLevels) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "odometry/synthetic_scene.h"
@@ -145,7 +144,7 @@ TEST_F(EpipolarTracerTest, LinesAlongAnEdgeAreBadlyConditioned) {
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) stripes(x, y) = 128 + 80 * std::sin(0.4f * static_cast<float>(y));
   }
-  const ImagePyramid pyramid = build_pyramid(std::as_const(stripes).view());
+  const ImagePyramid pyramid = build_pyramid(stripes.view());
   const PinholeIntrinsics& c = scene_->camera();
   const PatternWarp warp =
       make_warp(SE3d(SO3d(), Eigen::Vector3d(0.05, 0, 0)), {c.fx, c.fy, c.cx, c.cy}, {}, pyramid.levels[0]);
@@ -209,7 +208,7 @@ TEST_F(EpipolarTracerTest, RepeatedTextureHasLowQuality) {
       stripes(x, y) = 128 + 60 * std::sin(static_cast<float>(2 * M_PI / 5) * static_cast<float>(x));
     }
   }
-  const ImagePyramid pyramid = build_pyramid(std::as_const(stripes).view());
+  const ImagePyramid pyramid = build_pyramid(stripes.view());
   const PinholeIntrinsics& c = scene_->camera();
   const PatternWarp warp =
       make_warp(SE3d(SO3d(), Eigen::Vector3d(0.05, 0, 0)), {c.fx, c.fy, c.cx, c.cy}, {}, pyramid.levels[0]);

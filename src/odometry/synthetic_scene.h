@@ -81,7 +81,7 @@ class SyntheticScene {
     auto frame = std::make_shared<PreparedFrame>();
     frame->id = id;
     frame->timestamp = 0.1 * static_cast<double>(id);
-    frame->pyramid = build_pyramid(std::as_const(image).view());
+    frame->pyramid = build_pyramid(image.view());
     return frame;
   }
 

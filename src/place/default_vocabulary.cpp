@@ -16,23 +16,23 @@
 #endif
 __asm__(LDSO_SECTION
         "\n"
-        ".globl " LDSO_SYMBOL("ldso_vocabulary_begin") "\n"
-        ".globl " LDSO_SYMBOL("ldso_vocabulary_end") "\n"
-        LDSO_SYMBOL("ldso_vocabulary_begin") ":\n"
+        ".globl " LDSO_SYMBOL("kLdsoVocabularyBegin") "\n"
+        ".globl " LDSO_SYMBOL("kLdsoVocabularyEnd") "\n"
+        LDSO_SYMBOL("kLdsoVocabularyBegin") ":\n"
         ".incbin \"" LDSO_VOCABULARY_FILE "\"\n"
-        LDSO_SYMBOL("ldso_vocabulary_end") ":\n"
+        LDSO_SYMBOL("kLdsoVocabularyEnd") ":\n"
         ".byte 0\n"
         ".text\n");
 
 extern "C" {
-extern const std::uint8_t ldso_vocabulary_begin[];
-extern const std::uint8_t ldso_vocabulary_end[];
+extern const std::uint8_t kLdsoVocabularyBegin[];
+extern const std::uint8_t kLdsoVocabularyEnd[];
 }
 
 namespace ldso {
 
 Vocabulary default_vocabulary() {
-  return parse_vocabulary(std::span(ldso_vocabulary_begin, ldso_vocabulary_end), "the built-in vocabulary");
+  return parse_vocabulary(std::span(kLdsoVocabularyBegin, kLdsoVocabularyEnd), "the built-in vocabulary");
 }
 
 }  // namespace ldso

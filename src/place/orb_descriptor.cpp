@@ -24,7 +24,7 @@ constexpr std::array<int, kCentroidRadius + 1> kDiscHalfWidths{15, 15, 15, 15, 1
 /// irradiance. Its root has about the same noise everywhere, since photons arrive as a Poisson process.
 cv::Mat to_8_bit(const Image<Texel>& image) {
   constexpr int kStepsPerLevel = 4;
-  static const auto table = [] {
+  static const auto kTable = [] {
     std::array<std::uint8_t, 256 * kStepsPerLevel> roots{};
     for (std::size_t i = 0; i < roots.size(); ++i)
       roots[i] = static_cast<std::uint8_t>(std::lround(std::sqrt(255.0 * std::min(i / double{kStepsPerLevel}, 255.0))));
@@ -37,7 +37,7 @@ cv::Mat to_8_bit(const Image<Texel>& image) {
     for (int x = 0; x < image.width(); ++x) {
       const float scaled = texels[x].intensity * kStepsPerLevel + 0.5F;
       // In this order not-a-numbers become 0.
-      out[x] = table[static_cast<int>(std::min(std::max(0.0F, scaled), static_cast<float>(table.size() - 1)))];
+      out[x] = kTable[static_cast<int>(std::min(std::max(0.0F, scaled), static_cast<float>(kTable.size() - 1)))];
     }
   }
   return grey;

@@ -51,13 +51,13 @@ Eigen::Vector2d turned(const Eigen::Vector2d& p, double angle) {
 
 /// The texture turned by `angle` about the centre of the image.
 Image<Texel> render(double angle) {
-  static const WaveTexture texture;
+  static const WaveTexture kTexture;
   static std::map<double, Image<Texel>> rendered;
   if (rendered.contains(angle)) return rendered[angle];
   Image<Texel> image(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x)
-      image(x, y) = {static_cast<float>(texture(turned(Eigen::Vector2d(x, y) - kCenter, -angle))), 0, 0, 1};
+      image(x, y) = {static_cast<float>(kTexture(turned(Eigen::Vector2d(x, y) - kCenter, -angle))), 0, 0, 1};
   }
   return rendered[angle] = image;
 }

@@ -16,13 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 
 const Vocabulary& trained() {
-  static const Vocabulary vocabulary = [] {
+  static const Vocabulary kVocabulary = [] {
     ThreadPool pool(1);
     TrainingOptions options;
     options.origin = "made up for a test";
     return train_vocabulary(place_test::made_up_images(20, 10), options, pool);
   }();
-  return vocabulary;
+  return kVocabulary;
 }
 
 class VocabularyFile : public testing::Test {

@@ -108,8 +108,8 @@ float NoiseTile::at(double x, double y) const {
 }
 
 const NoiseTiles& noise_tiles() {
-  static const NoiseTiles tiles{NoiseTile(11, 4, 6, 0.5), NoiseTile(12, 8, 6, 0.75), NoiseTile(13, 64, 3, 1.0)};
-  return tiles;
+  static const NoiseTiles kTiles{NoiseTile(11, 4, 6, 0.5), NoiseTile(12, 8, 6, 0.75), NoiseTile(13, 64, 3, 1.0)};
+  return kTiles;
 }
 
 SmoothNoise::SmoothNoise(std::uint64_t seed, double frequency, int terms) {
@@ -131,8 +131,8 @@ double SmoothNoise::at(double t) const {
 }
 
 float gaussian_of(std::uint64_t key) {
-  static const std::vector<float> quantiles = make_quantiles();
-  return quantiles[mix_bits(key) & 0xffff];
+  static const std::vector<float> kQuantiles = make_quantiles();
+  return kQuantiles[mix_bits(key) & 0xffff];
 }
 
 }  // namespace ldso::simulation

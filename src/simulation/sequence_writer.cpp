@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "io/calibration_file.h"
@@ -73,7 +72,7 @@ void write_depth(const fs::path& path, const Image<float>& depth, double unit) {
     const double units = std::round(depth.data()[i] / unit);
     image.data()[i] = units > 65535 ? std::uint16_t{0} : static_cast<std::uint16_t>(units);
   }
-  write_png(path, std::as_const(image).view());
+  write_png(path, image.view());
 }
 
 /// Names of the frames that a folder contains.

@@ -35,8 +35,8 @@ class SequenceWriter : public ::testing::Test {
 
   /// The sequence of tiny(), made once.
   static const SimulatedSequence& sequence() {
-    static const SimulatedSequence made = make_sequence(tiny(), nullptr);
-    return made;
+    static const SimulatedSequence kMade = make_sequence(tiny(), nullptr);
+    return kMade;
   }
 
   fs::path folder_;

@@ -156,8 +156,9 @@ int SimulatedSequence::blur_steps(int index) const {
 Image<float> SimulatedSequence::irradiance(int index, ThreadPool* pool) const {
   const RayCaster caster(world_.scene, rays_);
   const int steps = blur_steps(index);
-  Image<float> sum, radiance;
+  Image<float> sum;
   for (int step = 0; step < steps; ++step) {
+    Image<float> radiance;
     const double offset = ((step + 0.5) / steps - 0.5) * 1e-3 * exposures_[index];
     caster.render(row_poses(index, steps > 1 ? offset : 0), {&radiance, nullptr}, pool);
     if (step == 0) {

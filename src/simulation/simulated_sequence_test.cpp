@@ -28,13 +28,13 @@ ThreadPool& pool() {
 }
 
 const SimulatedSequence& room() {
-  static const SimulatedSequence sequence = make_sequence(small("room"), &pool());
-  return sequence;
+  static const SimulatedSequence kSequence = make_sequence(small("room"), &pool());
+  return kSequence;
 }
 
 const SimulatedSequence& street() {
-  static const SimulatedSequence sequence = make_sequence(small("street"), &pool());
-  return sequence;
+  static const SimulatedSequence kSequence = make_sequence(small("street"), &pool());
+  return kSequence;
 }
 
 double interpolate(const Image<float>& image, double u, double v) {

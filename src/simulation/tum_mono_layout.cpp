@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iomanip>
 #include <string>
-#include <utility>
 
 #include "io/calibration_file.h"
 #include "io/image_file.h"
@@ -27,7 +26,7 @@ void write_photometry(const fs::path& folder, const PhotometricCalibration& phot
   if (!photometric.vignette.empty()) {
     Image<float> scaled = photometric.vignette;
     std::for_each(scaled.data(), scaled.data() + scaled.size(), [](float& v) { v *= 255; });
-    write_grey16_png(folder / "vignette.png", std::as_const(scaled).view());
+    write_grey16_png(folder / "vignette.png", scaled.view());
   }
 }
 

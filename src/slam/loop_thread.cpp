@@ -39,9 +39,12 @@ LoopThread::LoopThread(const LoopSettings& settings, LogSink log)
       settings_(closer_settings(settings)),
       vocabulary_(read_given(settings)),
       queue_(kMostWaiting),
-      thread_([this] { work(); }) {}
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-LoopThread::~LoopThread() { queue_.close(); }
+LoopThread::~LoopThread() {
+  thread_.request_stop();
+  queue_.close();
+}
 
 void LoopThread::add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera) {
   {
@@ -69,21 +72,22 @@ Sim3d LoopThread::correction() {
   return back < corrections_.size() ? corrections_[corrections_.size() - 1 - back] : corrections_.front();
 }
 
-void LoopThread::process() {
+void LoopThread::process(const std::stop_token& stop) {
   if (!vocabulary_) vocabulary_ = std::make_shared<const Vocabulary>(default_vocabulary());
   closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
   while (std::optional<Item> item = queue_.pop()) {
+    if (stop.stop_requested()) return;
     const FinishedKeyframe& keyframe = item->keyframe;
     closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);
     publish(closer_->correction());
   }
-  closer_->finish();
+  if (!stop.stop_requested()) closer_->finish();
 }
 
-void LoopThread::work() {
+void LoopThread::work(const std::stop_token& stop) {
   bool failed = false;
   try {
-    process();
+    process(stop);
   } catch (const std::exception& error) {
     failed = true;
     log_to(log_, LogLevel::kWarning, std::string("loop closing ends: ") + error.what());

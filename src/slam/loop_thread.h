@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,6 +26,7 @@ class LoopThread {
  public:
   /// Throws Error if `settings.vocabulary` names a file that cannot be read.
   LoopThread(const LoopSettings& settings, LogSink log);
+  /// Without finish() before it, keyframes that wait are dropped and no loop is closed.
   ~LoopThread();
   LoopThread(const LoopThread&) = delete;
   LoopThread& operator=(const LoopThread&) = delete;
@@ -45,8 +47,8 @@ class LoopThread {
     FinishedKeyframe keyframe;
     PinholeIntrinsics camera;
   };
-  void work();
-  void process();
+  void work(const std::stop_token& stop);
+  void process(const std::stop_token& stop);
   /// Makes the correction after a keyframe known.
   void publish(const Sim3d& correction);
 

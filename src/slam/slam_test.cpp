@@ -17,12 +17,6 @@ namespace {
 
 constexpr int kFrames = 30;
 
-/// Of a temporary image too, which lives until the end of the call it is passed to.
-template <class T>
-ImageView<const T> const_view(const Image<T>& image) {
-  return image.view();
-}
-
 template <class T>
 Image<T> converted(const Image<std::uint8_t>& image, T factor) {
   Image<T> result(image.width(), image.height());
@@ -32,7 +26,7 @@ Image<T> converted(const Image<std::uint8_t>& image, T factor) {
 
 SlamResult run(const Settings& settings, int frames = kFrames) {
   Slam slam(scene_calibration(), settings);
-  for (int i = 0; i < frames; ++i) slam.process(const_view(draw_scene(i)), 0.1 * i);
+  for (int i = 0; i < frames; ++i) slam.process(draw_scene(i).view(), 0.1 * i);
   return slam.finish();
 }
 
@@ -65,7 +59,7 @@ TEST(Slam, FollowsTheCameraAndMapsWhatItSees) {
             [&](LogLevel, const std::string& message) { messages.push_back(message); });
   int tracked = 0;
   for (int i = 0; i < kFrames; ++i) {
-    const FrameRecord frame = slam.process(const_view(draw_scene(i)), 0.1 * i);
+    const FrameRecord frame = slam.process(draw_scene(i).view(), 0.1 * i);
     EXPECT_EQ(frame.frame_id, i);
     EXPECT_EQ(frame.timestamp, 0.1 * i);
     EXPECT_EQ(slam.T_world_camera().has_value(), frame.state == TrackingState::kTracked);
@@ -104,8 +98,8 @@ TEST(Slam, EveryPixelTypeIsTheSameImage) {
   for (int i = 0; i < 20; ++i) {
     const Image<std::uint8_t> image = draw_scene(i);
     bytes.process(image.view(), i);
-    words.process(const_view(converted<std::uint16_t>(image, 257)), i);
-    reals.process(const_view(converted<float>(image, 1)), i);
+    words.process(converted<std::uint16_t>(image, 257).view(), i);
+    reals.process(converted<float>(image, 1).view(), i);
   }
   const SlamResult result = bytes.finish();
   ASSERT_GT(result.trajectory().size(), 5u);
@@ -138,12 +132,12 @@ TEST(Slam, ARefusedFrameChangesNothing) {
       const std::string error = error_of([&] { slam.process(small.view(), 0.1 * i); });
       EXPECT_NE(error.find("frame 15"), std::string::npos) << error;
       EXPECT_NE(error.find("100 x 80"), std::string::npos) << error;
-      EXPECT_NE(error_of([&] { slam.process(const_view(draw_scene(i)), std::nan("")); }).find("timestamp"),
+      EXPECT_NE(error_of([&] { slam.process(draw_scene(i).view(), std::nan("")); }).find("timestamp"),
                 std::string::npos);
       EXPECT_NE(error_of([&] { slam.process(ImageView<const float>{}, 0.1 * i); }).find("no pixels"),
                 std::string::npos);
     }
-    slam.process(const_view(draw_scene(i)), 0.1 * i);
+    slam.process(draw_scene(i).view(), 0.1 * i);
   }
   expect_equal(slam.finish(), run(Settings{}));
 }
@@ -152,7 +146,7 @@ TEST(Slam, AnExposureThatIsNoTimeCountsAsUnknown) {
   Slam slam(scene_calibration(), Settings{});
   for (int i = 0; i < kFrames; ++i) {
     const double exposure = i % 3 == 0 ? 0.0 : i % 3 == 1 ? -1.0 : std::numeric_limits<double>::quiet_NaN();
-    slam.process(const_view(draw_scene(i)), 0.1 * i, exposure);
+    slam.process(draw_scene(i).view(), 0.1 * i, exposure);
   }
   expect_equal(slam.finish(), run(Settings{}));
 }
@@ -160,7 +154,7 @@ TEST(Slam, AnExposureThatIsNoTimeCountsAsUnknown) {
 TEST(Slam, NothingFollowsTheEnd) {
   Slam slam(scene_calibration(), Settings{});
   EXPECT_TRUE(slam.finish().trajectory().empty());
-  EXPECT_NE(error_of([&] { slam.process(const_view(draw_scene(0)), 0); }).find("finished"), std::string::npos);
+  EXPECT_NE(error_of([&] { slam.process(draw_scene(0).view(), 0); }).find("finished"), std::string::npos);
   EXPECT_NE(error_of([&] { slam.finish(); }).find("finished"), std::string::npos);
 }
 
@@ -189,7 +183,7 @@ TEST(Slam, SeveralCamerasInOneProcess) {
       }
     }
     full.process(image.view(), i);
-    small.process(std::as_const(binned).view(), i);
+    small.process(binned.view(), i);
   }
   EXPECT_EQ(small.rectified_camera().width, kSceneWidth / 2);
   EXPECT_GT(small.finish().trajectory().size(), 5u);

@@ -1,5 +1,6 @@
 #pragma once
-// What the folder of a job says: whether it has ended, how, and whether somebody is at it. See job.h for the files.
+// Where the folder of a job is, whether somebody is at it, and what its log says. See job.h for the files, run_file.h
+// for how the job ended.
 
 #include <filesystem>
 #include <optional>
@@ -9,35 +10,6 @@ namespace ldso {
 
 /// The folder of a job below that of its experiment.
 std::filesystem::path job_folder(const std::filesystem::path& experiment, const std::string& id);
-
-enum class JobState {
-  kOpen,      ///< Has no result: never run, interrupted or killed.
-  kFinished,  ///< Has a result with a trajectory.
-  kFailed,    ///< Has ended with an error or without a single pose: that is its result.
-};
-
-struct JobOutcome {
-  JobState state = JobState::kOpen;
-  std::optional<double> seconds;              ///< How long the run took, if run.json says it.
-  std::string reason;                         ///< Why it has failed.
-  std::filesystem::file_time_type written{};  ///< When, if it is not open.
-};
-
-/// Never throws: what cannot be read is open.
-JobOutcome read_outcome(const std::filesystem::path& folder);
-
-/// How `ldso run` ended without a result.
-struct JobFailure {
-  int exit_code = 0;  ///< As shells have it: 128 + signal after a signal.
-  std::optional<int> signal;
-  std::string reason;
-};
-
-/// Writes failure.json. Throws Error if that fails.
-void write_failure(const std::filesystem::path& folder, const JobFailure& failure);
-
-/// Removes what read_outcome() goes by, so that the job is open.
-void clear_outcome(const std::filesystem::path& folder);
 
 /// The last error message in log.txt without "error: "; empty if there is none.
 std::string last_error(const std::filesystem::path& folder);

@@ -4,8 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "io/text_file.h"
 #include "ldso/error.h"
 
@@ -22,44 +20,9 @@ class JobFolder : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  JobState state_with(const char* run_json) {
-    write_file(folder_ / "run.json", run_json);
-    return read_outcome(folder_).state;
-  }
-
   fs::path folder_ =
       fs::path(testing::TempDir()) / "ldso_job_folder" / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
-
-TEST_F(JobFolder, RunJsonSaysWhetherTheJobHasEnded) {
-  EXPECT_EQ(read_outcome(folder_).state, JobState::kOpen);
-  EXPECT_EQ(read_outcome(folder_ / "nowhere").state, JobState::kOpen);
-  EXPECT_EQ(state_with(R"({"interrupted": true, "error": null})"), JobState::kOpen);
-  EXPECT_EQ(state_with("{\"interrupted\": fal"), JobState::kOpen);
-  EXPECT_EQ(state_with(R"({"interrupted": false, "error": null, "counts": {"frames_with_pose": 3}})"),
-            JobState::kFinished);
-  EXPECT_EQ(state_with(R"({"interrupted": false, "error": null, "counts": {"frames_with_pose": 0}})"),
-            JobState::kFailed);
-  EXPECT_EQ(state_with(R"({"interrupted": false, "error": "frame 3", "timing": {"wall_s": 2.5}})"), JobState::kFailed);
-  EXPECT_EQ(read_outcome(folder_).reason, "frame 3");
-  EXPECT_EQ(read_outcome(folder_).seconds, 2.5);
-  EXPECT_EQ(state_with("3"), JobState::kOpen);
-  EXPECT_EQ(state_with(R"({"interrupted": "no"})"), JobState::kOpen);
-}
-
-TEST_F(JobFolder, FailuresAreKeptAndCleared) {
-  write_failure(folder_, {139, 11, "crashed (SIGSEGV)"});
-  const JobOutcome outcome = read_outcome(folder_);
-  EXPECT_EQ(outcome.state, JobState::kFailed);
-  EXPECT_EQ(outcome.reason, "crashed (SIGSEGV)");
-  const auto json = nlohmann::json::parse(read_file(folder_ / "failure.json"));
-  EXPECT_EQ(json["exit_code"], 139);
-  EXPECT_EQ(json["signal"], 11);
-  write_failure(folder_, {1, std::nullopt, "not \xff UTF-8"});
-  EXPECT_TRUE(nlohmann::json::parse(read_file(folder_ / "failure.json"))["signal"].is_null());
-  clear_outcome(folder_);
-  EXPECT_EQ(read_outcome(folder_).state, JobState::kOpen);
-}
 
 TEST_F(JobFolder, TheLastErrorIsFound) {
   EXPECT_EQ(last_error(folder_), "");

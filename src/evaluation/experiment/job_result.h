@@ -54,7 +54,7 @@ void visit_errors(Errors& errors, Visitor visit) {
 }
 
 /// Time spent in one stage of the pipeline.
-struct StageTime {
+struct RunStage {
   std::int64_t calls = 0;
   double total_ms = 0;
 };
@@ -94,7 +94,7 @@ struct JobResult {
   TrajectoryErrors errors;           ///< Of the final trajectory. None if it failed.
   TrajectoryErrors odometry_errors;  ///< Before loop closing; of a run without closed loops the same.
   RunFigures run;
-  std::map<std::string, StageTime> stages;  ///< By the name in run.json, e.g. "keyframe/select".
+  std::map<std::string, RunStage> stages;  ///< By the name in run.json, e.g. "keyframe/select".
 };
 
 /// An error that figures and tables show.

@@ -6,11 +6,13 @@
 #include <csignal>
 #include <deque>
 #include <map>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "evaluation/experiment/job_file.h"
 #include "evaluation/experiment/job_folder.h"
+#include "evaluation/experiment/run_file.h"
 #include "evaluation/experiment/time_left.h"
 #include "ldso/error.h"
 
@@ -102,17 +104,17 @@ class JobRunner {
 
   /// Whether the job has a result that stands; if so it is counted.
   bool has_ended(std::size_t job) {
-    const JobOutcome outcome = read_outcome(folder_of(job));
-    if (outcome.state == JobState::kOpen) return false;
+    const RunOutcome outcome = read_run(folder_of(job));
+    if (outcome.state == RunState::kPending) return false;
     // Failures of this session stand: another runner may be retrying the same ones.
-    if (outcome.state == JobState::kFailed && options_.retry_failed && outcome.written < session_) return false;
-    count(job, outcome);
+    if (outcome.state == RunState::kFailed && options_.retry_failed && outcome.written < session_) return false;
+    count(job, outcome.state, outcome.figures.wall_s);
     return true;
   }
 
-  void count(std::size_t job, const JobOutcome& outcome) {
-    ++(outcome.state == JobState::kFailed ? report_.failed : report_.finished);
-    if (outcome.seconds) time_left_.learn(jobs_[job], *outcome.seconds);
+  void count(std::size_t job, RunState state, std::optional<double> seconds) {
+    ++(state == RunState::kFailed ? report_.failed : report_.finished);
+    if (seconds) time_left_.learn(jobs_[job], *seconds);
   }
 
   void start_jobs() {
@@ -133,7 +135,7 @@ class JobRunner {
       return;
     }
     if (has_ended(job)) return;  // Between the look and the lock.
-    clear_outcome(folder);
+    clear_run(folder);
     write_job(folder, jobs_[job]);
     JobProcess process(options_.program, jobs_[job].arguments, folder / "log.txt", lock->descriptor());
     running_.push_back({job, std::move(*lock), std::move(process), Clock::now()});
@@ -161,18 +163,17 @@ class JobRunner {
     running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(index));
     const ProcessEnd end = running.process.wait();
     const fs::path folder = folder_of(running.job);
-    JobOutcome outcome = read_outcome(folder);
-    if (outcome.state == JobState::kOpen && ended_from_outside(end)) {
+    RunOutcome outcome = read_run(folder);
+    if (outcome.state == RunState::kPending && ended_from_outside(end)) {
       run_again(running.job);
       return;
     }
-    if (outcome.state == JobState::kOpen) {
+    if (outcome.state == RunState::kPending) {
       write_failure(folder, failure_of(end, folder));
-      outcome = read_outcome(folder);
+      outcome = read_run(folder);
     }
-    outcome.seconds = std::chrono::duration<double>(Clock::now() - running.start).count();
-    count(running.job, outcome);
-    if (outcome.state == JobState::kFailed && options_.failed) options_.failed(jobs_[running.job], outcome.reason);
+    count(running.job, outcome.state, std::chrono::duration<double>(Clock::now() - running.start).count());
+    if (outcome.state == RunState::kFailed && options_.failed) options_.failed(jobs_[running.job], outcome.reason);
   }
 
   void run_again(std::size_t job) {
@@ -264,7 +265,7 @@ std::vector<std::string> changed_jobs(const std::vector<ExperimentJob>& jobs, co
   std::vector<std::string> changed;
   for (const ExperimentJob& job : jobs) {
     const fs::path folder = job_folder(experiment, job.id);
-    if (read_outcome(folder).state == JobState::kOpen) continue;
+    if (read_run(folder).state == RunState::kPending) continue;
     if (is_another(read_job(folder), job)) changed.push_back(job.id);
   }
   return changed;

@@ -13,6 +13,7 @@
 
 #include "evaluation/experiment/job_file.h"
 #include "evaluation/experiment/job_folder.h"
+#include "evaluation/experiment/run_file.h"
 #include "io/text_file.h"
 #include "ldso/error.h"
 
@@ -21,7 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGood = R"(echo '{"interrupted": false, "error": null}' > "$out/run.json"; )";
+/// Of a run that has gone well.
+constexpr const char* kGoodRun =
+    R"({"interrupted": false, "error": null, "sequence": {"frames": 9}, "counts": {"frames_with_pose": 9}})";
+const std::string kGood = std::string("echo '").append(kGoodRun).append(R"(' > "$out/run.json"; )");
 
 /// Jobs are shell scripts: `sh -c SCRIPT FOLDER`. Each adds a line to the file `runs` beside the jobs.
 class JobRunnerTest : public testing::Test {
@@ -101,10 +105,12 @@ TEST_F(JobRunnerTest, FailuresAreResults) {
       job("abort", "kill -s ABRT $$"),
       job("silent", "exit 0"),
       job("good", kGood),
-      job("early", R"(echo '{"interrupted": false, "error": "disk"}' > "$out/run.json"; exit 1)")};
+      job("early", R"(echo '{"interrupted": false, "error": "disk"}' > "$out/run.json"; exit 1)"),
+      job("lost", R"(echo '{"interrupted": false, "error": null, "sequence": {"frames": 9},)"
+                  R"( "counts": {"frames_with_pose": 4}}' > "$out/run.json")")};
   RunnerReport report = run(jobs);
   EXPECT_EQ(report.finished, 1);
-  EXPECT_EQ(report.failed, 5);
+  EXPECT_EQ(report.failed, 6);
   EXPECT_EQ(failure("error")["reason"], "no camera");
   EXPECT_EQ(failure("error")["exit_code"], 1);
   EXPECT_TRUE(failure("error")["signal"].is_null());
@@ -114,14 +120,17 @@ TEST_F(JobRunnerTest, FailuresAreResults) {
   EXPECT_EQ(failure("abort")["reason"], "crashed (SIGABRT)");
   EXPECT_EQ(failure("silent")["reason"], "ended with exit code 0 and without a result");
   EXPECT_FALSE(fs::exists(folder_ / "jobs/early/failure.json"));
-  EXPECT_EQ(std::set<std::string>(failures_.begin(), failures_.end()).count("early: disk"), 1u);
+  EXPECT_EQ(std::set<std::string>(failures_.begin(), failures_.end()).count("early: ended early: disk"), 1u);
+  EXPECT_EQ(
+      std::set<std::string>(failures_.begin(), failures_.end()).count("lost: lost: only 4 of 9 frames have a pose"),
+      1u);
 
   report = run(jobs);
   EXPECT_EQ(report.started, 0);
-  EXPECT_EQ(report.failed, 5);
+  EXPECT_EQ(report.failed, 6);
   report = run(jobs, /*retry=*/true);
-  EXPECT_EQ(report.started, 5);
-  EXPECT_EQ(report.failed, 5);
+  EXPECT_EQ(report.started, 6);
+  EXPECT_EQ(report.failed, 6);
   EXPECT_EQ(runs("crash"), 2);
   EXPECT_EQ(runs("good"), 1);
 }
@@ -144,8 +153,8 @@ TEST_F(JobRunnerTest, WhatWasKilledFromOutsideIsRunAgain) {
 TEST_F(JobRunnerTest, StaleResultsAreRemovedBeforeAJobStarts) {
   fs::create_directories(folder_ / "jobs/a");
   write_file(folder_ / "jobs/a/run.json", R"({"interrupted": true})");
-  run({job("a", std::string("test ! -e \"$out/run.json\" && ").append(kGood))});
-  EXPECT_EQ(read_outcome(folder_ / "jobs/a").state, JobState::kFinished);
+  run({job("a", "test ! -e \"$out/run.json\" && " + kGood)});
+  EXPECT_EQ(read_run(folder_ / "jobs/a").state, RunState::kFinished);
 }
 
 TEST_F(JobRunnerTest, StopEndsTheJobsInOrder) {
@@ -208,8 +217,7 @@ TEST_F(JobRunnerTest, JobsDieWithTheirRunnerAndAreRunAgain) {
 
 TEST_F(JobRunnerTest, TwoRunnersShareTheJobs) {
   std::vector<ExperimentJob> jobs;
-  for (int i = 0; i < 30; ++i)
-    jobs.push_back(job(std::string("j").append(std::to_string(i)), std::string("sleep 0.02; ").append(kGood)));
+  for (int i = 0; i < 30; ++i) jobs.push_back(job(std::string("j").append(std::to_string(i)), "sleep 0.02; " + kGood));
   const pid_t other = in_a_process([&] { run(jobs, false, 3); });
   const RunnerReport report = run(jobs, false, 3);
   waitpid(other, nullptr, 0);
@@ -223,7 +231,7 @@ TEST_F(JobRunnerTest, AProgramThatCannotBeRunIsNoResult) {
   options.experiment = folder_;
   options.program = {"/nowhere/ldso", "ldso"};
   EXPECT_THROW(run_jobs({job("a", kGood)}, options), Error);
-  EXPECT_EQ(read_outcome(folder_ / "jobs/a").state, JobState::kOpen);
+  EXPECT_EQ(read_run(folder_ / "jobs/a").state, RunState::kPending);
   EXPECT_FALSE(JobLock::is_held(folder_ / "jobs/a"));
 }
 
@@ -241,7 +249,7 @@ TEST_F(JobRunnerTest, ResultsOfOtherJobsAreNotTakenForThese) {
   moved.path = "/elsewhere";
   // What has no result yet may change.
   EXPECT_TRUE(changed_jobs({other}, folder_).empty());
-  write_file(folder_ / "jobs/a/run.json", R"({"interrupted": false, "error": null})");
+  write_file(folder_ / "jobs/a/run.json", kGoodRun);
   EXPECT_TRUE(changed_jobs({same}, folder_).empty());
   EXPECT_EQ(changed_jobs({other}, folder_), std::vector<std::string>{"a"});
   EXPECT_EQ(changed_jobs({moved}, folder_), std::vector<std::string>{"a"});

@@ -1,6 +1,7 @@
 #include "evaluation/experiment/run_file.h"
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "io/text_file.h"
@@ -11,6 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+
+constexpr const char* kRun = "run.json";
+constexpr const char* kFailure = "failure.json";
 
 /// Member of an object, at any depth ("/counts/frames"); null if there is none.
 Json at(const Json& json, const char* pointer) {
@@ -38,8 +42,8 @@ RunFigures figures_of(const Json& run) {
   return figures;
 }
 
-std::map<std::string, StageTime> stages_of(const Json& run) {
-  std::map<std::string, StageTime> stages;
+std::map<std::string, RunStage> stages_of(const Json& run) {
+  std::map<std::string, RunStage> stages;
   const Json all = at(run, "/timing/stages");
   for (const auto& [name, stage] : all.items()) {
     stages[name] = {stage.at("calls").get<std::int64_t>(), stage.at("total_ms").get<double>()};
@@ -116,23 +120,31 @@ RunOutcome failure_of(const Json& failure) {
   RunOutcome outcome;
   outcome.state = RunState::kFailed;
   outcome.reason = failure.value("reason", "");
+  if (!outcome.reason.empty()) return outcome;
   const Json signal = at(failure, "/signal");
-  const std::string how =
+  outcome.reason =
       signal.is_null() ? "exit code " + at(failure, "/exit_code").dump() : "killed by signal " + signal.dump();
-  if (outcome.reason.empty()) {
-    outcome.reason = how;
-  } else if (!signal.is_null() && outcome.reason.find("signal") == std::string::npos) {
-    outcome.reason = how + ": " + outcome.reason;
-  }
   return outcome;
 }
 
-/// The file's content through `convert`; if it is damaged, a pending job with that reason.
+/// Opening a folder makes network file systems ask the server for its present entries; a mere look for a file may be
+/// answered from what this machine remembers.
+void refresh(const fs::path& folder) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+}
+
+/// The file's content through `convert`; pending if there is no such file, or with a reason if it is damaged.
 template <class Convert>
 RunOutcome read(const fs::path& path, Convert convert) {
   RunOutcome damaged;
+  std::error_code error_code;
+  const fs::file_time_type written = fs::last_write_time(path, error_code);
+  if (error_code) return {};
   try {
-    return convert(Json::parse(read_file(path)));
+    RunOutcome outcome = convert(Json::parse(read_file(path)));
+    outcome.written = written;
+    return outcome;
   } catch (const Json::exception& error) {
     damaged.reason = path.string() + ": is damaged (" + error.what() + ")";
   } catch (const Error& error) {
@@ -144,12 +156,22 @@ RunOutcome read(const fs::path& path, Convert convert) {
 }  // namespace
 
 RunOutcome read_run(const fs::path& folder) {
-  RunOutcome outcome;
-  if (fs::exists(folder / "run.json")) outcome = read(folder / "run.json", outcome_of);
-  if (outcome.state == RunState::kPending && fs::exists(folder / "failure.json")) {
-    outcome = read(folder / "failure.json", failure_of);
-  }
-  return outcome;
+  refresh(folder);
+  RunOutcome outcome = read(folder / kRun, outcome_of);
+  if (outcome.state != RunState::kPending) return outcome;
+  RunOutcome failure = read(folder / kFailure, failure_of);
+  return failure.state == RunState::kFailed || outcome.reason.empty() ? failure : outcome;
+}
+
+void write_failure(const fs::path& folder, const JobFailure& failure) {
+  const nlohmann::ordered_json json{{"exit_code", failure.exit_code},
+                                    {"signal", failure.signal ? Json(*failure.signal) : Json()},
+                                    {"reason", failure.reason}};
+  write_file(folder / kFailure, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void clear_run(const fs::path& folder) {
+  for (const char* name : {kRun, kFailure}) fs::remove(folder / name);
 }
 
 }  // namespace ldso

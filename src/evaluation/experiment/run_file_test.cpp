@@ -1,6 +1,9 @@
 #include "evaluation/experiment/run_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include "evaluation/experiment/test_results.h"
+#include "io/text_file.h"
 
 namespace ldso {
 namespace {
@@ -80,6 +83,30 @@ TEST_F(RunFile, AFailureWithoutRunHasItsReason) {
   EXPECT_EQ(read_run(folder_).reason, "killed by signal 9");
   write(folder_ / "failure.json", R"({"exit_code": 1, "signal": null, "reason": ""})");
   EXPECT_EQ(read_run(folder_).reason, "exit code 1");
+}
+
+TEST_F(RunFile, FailuresAreWrittenReadAndCleared) {
+  write_failure(folder_, {139, 11, "crashed (SIGSEGV)"});
+  EXPECT_EQ(read_run(folder_).state, RunState::kFailed);
+  EXPECT_EQ(read_run(folder_).reason, "crashed (SIGSEGV)");
+  const auto json = nlohmann::json::parse(read_file(folder_ / "failure.json"));
+  EXPECT_EQ(json["exit_code"], 139);
+  EXPECT_EQ(json["signal"], 11);
+  EXPECT_EQ(read_run(folder_).written, std::filesystem::last_write_time(folder_ / "failure.json"));
+  write_failure(folder_, {1, std::nullopt, "not \xff UTF-8"});
+  EXPECT_TRUE(nlohmann::json::parse(read_file(folder_ / "failure.json"))["signal"].is_null());
+  write(folder_ / "run.json", run_json_text(60));
+  EXPECT_EQ(read_run(folder_).state, RunState::kFinished);
+  clear_run(folder_);
+  EXPECT_EQ(read_run(folder_).state, RunState::kPending);
+  EXPECT_EQ(read_run(folder_ / "nowhere").state, RunState::kPending);
+}
+
+TEST_F(RunFile, AFailureSaysMoreThanADamagedRun) {
+  write(folder_ / "run.json", "{");
+  write_failure(folder_, {1, std::nullopt, "disk full"});
+  EXPECT_EQ(read_run(folder_).reason, "disk full");
+  EXPECT_EQ(read_run(folder_).state, RunState::kFailed);
 }
 
 TEST_F(RunFile, ADamagedFileIsPendingAndSaysSo) {

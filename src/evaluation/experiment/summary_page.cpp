@@ -10,12 +10,23 @@ constexpr const char* kHead =
     "<meta name=\"viewport\" content=\"width=device-width\">\n<style>\n"
     "body { font-family: Helvetica, Arial, sans-serif; margin: 2em auto; max-width: 80em; padding: 0 1em; color: #222 "
     "}\n"
-    "table { border-collapse: collapse; margin: 0.5em 0 1.5em }\n"
-    "th, td { padding: 0.25em 0.7em; text-align: right; border-bottom: 1px solid #ddd }\n"
+    "table { border-collapse: collapse; font-size: 0.85em; font-variant-numeric: tabular-nums }\n"
+    "th, td { padding: 0.25em 0.6em; text-align: right; vertical-align: top; border-bottom: 1px solid #ddd }\n"
+    "th { vertical-align: bottom } td { white-space: nowrap } small { color: #555 }\n"
     "th:first-child, td:first-child { text-align: left }\n"
-    ".reasons td { text-align: left }\n"
+    ".reasons td { text-align: left; white-space: normal }\n"
     "figure { margin: 1em 0 2em } img { max-width: 100% } figcaption, caption { color: #555; text-align: left }\n"
-    ".table { overflow-x: auto }\n";
+    "caption { padding-bottom: 0.4em; white-space: nowrap }\n"
+    ".table { overflow-x: auto; margin: 1em 0 2em }\n";
+
+/// A figure, and below it, smaller, what is said of it in brackets.
+std::string html_cell(const TableCell& cell) {
+  const std::size_t note = cell.text.find(" (");
+  const std::string value = xml_escape(cell.text.substr(0, note));
+  const std::string marked = cell.best ? "<b>" + value + "</b>" : value;
+  return note == std::string::npos ? marked
+                                   : marked + "<br><small>" + xml_escape(cell.text.substr(note + 1)) + "</small>";
+}
 
 std::string html_table(const TextTable& table) {
   const bool is_text = table.name == "problems";
@@ -25,10 +36,7 @@ std::string html_table(const TextTable& table) {
   html += "</tr>\n";
   for (const TableRow& row : table.rows) {
     html += "<tr>";
-    for (const TableCell& cell : row) {
-      const std::string text = xml_escape(cell.text);
-      html += "<td>" + (cell.best ? "<b>" + text + "</b>" : text) + "</td>";
-    }
+    for (const TableCell& cell : row) html += "<td>" + (is_text ? xml_escape(cell.text) : html_cell(cell)) + "</td>";
     html += "</tr>\n";
   }
   return html + "</table></div>\n";

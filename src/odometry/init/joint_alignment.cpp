@@ -312,7 +312,7 @@ class Solver {
 
 /// The scale direction is free: the direction's covariance is that within the plane orthogonal to t.
 double direction_stddev(const ReducedSystem& system, const SE3d& T, double noise) {
-  const Eigen::Vector3d t = T.translation();
+  const Eigen::Vector3d& t = T.translation();
   Eigen::Vector3d axis = std::abs(t.x()) > 0.6 * t.norm() ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
   Eigen::Matrix<double, 8, 7> basis = Eigen::Matrix<double, 8, 7>::Zero();
   basis.col(0).head<3>() = t.cross(axis).normalized();
