@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "ldso/log.h"
+#include "ldso/observer.h"
 #include "ldso/settings.h"
 #include "mapping/loop_closer.h"
 #include "odometry/window/finished_keyframe.h"
@@ -24,7 +25,7 @@ namespace ldso {
 class LoopThread {
  public:
   /// Throws Error if `settings.vocabulary` names a file that cannot be read.
-  LoopThread(const LoopSettings& settings, LogSink log);
+  LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer = {});
   ~LoopThread();
   LoopThread(const LoopThread&) = delete;
   LoopThread& operator=(const LoopThread&) = delete;
@@ -47,6 +48,8 @@ class LoopThread {
   };
   void work();
   void process();
+  /// Tells the observer what has changed since it was told last.
+  void tell();
   /// Makes the correction after a keyframe known.
   void publish(const Sim3d& correction);
 
@@ -56,6 +59,9 @@ class LoopThread {
   BoundedQueue<Item> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.
   bool failed_ = false;
+  std::shared_ptr<RunObserver> observer_;  ///< With the next two of the thread's own.
+  int optimizations_told_ = 0;
+  std::vector<bool> loops_told_;  ///< Of all records: whether it was told as accepted.
 
   std::mutex mutex_;
   std::condition_variable published_;
