@@ -8,7 +8,6 @@
 #include <iostream>
 
 #include "app/interrupt.h"
-#include "viewer/random_id.h"
 
 extern char** environ;
 
@@ -37,13 +36,6 @@ void open_browser(const std::string& url) {
 }
 
 }  // namespace
-
-ServerOptions server_options(const std::string& address) {
-  ServerOptions options;
-  options.address = parse_listen_address(address);
-  if (!options.address.is_loopback()) options.token = make_token();
-  return options;
-}
 
 void announce_page(const std::string& url) {
   std::cout << "viewer         " << url << std::endl;

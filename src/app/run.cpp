@@ -21,7 +21,6 @@
 #include "ldso/error.h"
 #include "slam/sequence_runner.h"
 #include "viewer/live_run.h"
-#include "viewer/random_id.h"
 
 namespace ldso {
 namespace {
@@ -35,7 +34,8 @@ struct RunArguments {
   std::optional<int> threads;
   std::optional<std::string> view;
   std::vector<std::string> set;
-  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false, view_exit = false, view_paused = false;
+  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false, view_exit = false,
+       view_paused = false;
 };
 
 void add_options(CLI::App& command, RunArguments& a) {
@@ -63,7 +63,8 @@ void add_options(CLI::App& command, RunArguments& a) {
       "--view{127.0.0.1}", a.view,
       "Show the run on a page in the browser while it goes on; --view=ADDRESS:PORT to serve it elsewhere than at " +
           viewer_url("127.0.0.1", kDefaultViewerPort, ""));
-  command.add_flag("--view-exit", a.view_exit, "End with the run instead of serving the page until Ctrl-C")->needs(view);
+  command.add_flag("--view-exit", a.view_exit, "End with the run instead of serving the page until Ctrl-C")
+      ->needs(view);
   command.add_flag("--view-paused", a.view_paused, "Wait at the first frame until the page says continue or step")
       ->needs(view);
   command.add_flag("--quiet", a.quiet, "Print warnings only");
@@ -111,7 +112,7 @@ LiveRunOptions live_options(const RunArguments& a, const Dataset& dataset) {
   LiveRunOptions options;
   options.name = a.sequence.lexically_normal().string();
   add_truth(dataset, options);
-  if (a.view) options.server = server_options(*a.view);
+  if (a.view) options.server = make_server_options(*a.view);
   options.is_paused = a.view_paused;
   return options;
 }

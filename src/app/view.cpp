@@ -7,6 +7,7 @@
 #include "app/browser.h"
 #include "ldso/error.h"
 #include "viewer/recording_file.h"
+#include "viewer/server.h"
 
 namespace ldso {
 namespace {
@@ -20,11 +21,12 @@ struct ViewArguments {
 
 void view(const ViewArguments& a) {
   const fs::path path = fs::is_directory(a.run) ? a.run / kRecordingName : a.run;
-  if (!fs::exists(path)) throw Error(path.string(), "there is no recording", "give the folder of a finished `ldso run`");
+  if (!fs::exists(path))
+    throw Error(path.string(), "there is no recording", "give the folder of a finished `ldso run`");
   LiveMap map;
   read_recording(path, map);
   const Server server(
-      server_options(a.address), map, [](LiveMap&, std::size_t) {}, [](protocol::Command) {});
+      make_server_options(a.address), map, [](LiveMap&, std::size_t) {}, [](protocol::Command) {});
   announce_page(server.url());
   serve_until_interrupted(server.url());
 }

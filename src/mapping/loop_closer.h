@@ -113,8 +113,8 @@ class LoopCloser {
   std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
   std::vector<LoopRecord> records_;
   VarianceFactors variance_factors_;
-  int last_accepted_ = -1000;       ///< Keyframe of the last closed loop.
-  int last_optimized_ = -1000;      ///< Newest keyframe when the graph was optimized last.
+  int last_accepted_ = -1000;   ///< Keyframe of the last closed loop.
+  int last_optimized_ = -1000;  ///< Newest keyframe when the graph was optimized last.
   int optimizations_ = 0;
   std::size_t loops_in_graph_ = 0;  ///< Those that the corrected poses take account of.
   StageTimes times_;

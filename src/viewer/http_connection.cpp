@@ -27,10 +27,10 @@ std::string_view view(beast::string_view text) { return {text.data(), text.size(
 
 /// What keeps other sites out of the page, and the page from asking other hosts for anything.
 void set_security(Response& response, const std::string& host) {
-  response.set("Content-Security-Policy",
-               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'" +
-                   (host.empty() ? "" : " ws://" + host) +
-                   "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+  response.set(
+      "Content-Security-Policy",
+      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'" +
+          (host.empty() ? "" : " ws://" + host) + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
@@ -151,8 +151,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   /// The host as it may stand in a header of ours.
   std::string safe_host() const {
-    const bool is_safe = host_.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.:-[]") ==
-                         std::string::npos;
+    const bool is_safe =
+        host_.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.:-[]") ==
+        std::string::npos;
     return is_safe ? host_ : "";
   }
 

@@ -57,8 +57,8 @@ TEST(LiveMap, LateJoinerGetsTheWholeMapAndOthersTheRestOnly) {
   EXPECT_EQ(types(map.next(early, kAll)), std::vector{MessageType::kKeyframe});
   EXPECT_TRUE(map.next(early, kAll).empty());
   MapCursor late;
-  EXPECT_EQ(types(map.next(late, kAll)), (std::vector{MessageType::kHello, MessageType::kKeyframe,
-                                                       MessageType::kKeyframe, MessageType::kFrames}));
+  EXPECT_EQ(types(map.next(late, kAll)),
+            (std::vector{MessageType::kHello, MessageType::kKeyframe, MessageType::kKeyframe, MessageType::kFrames}));
 }
 
 TEST(LiveMap, ComesInPartsThatLoseNothing) {

@@ -24,7 +24,7 @@ constexpr int kFetchInterval = 50;
 protocol::Hello make_hello(const LiveRunOptions& options) {
   protocol::Hello hello;
   hello.run_id = random_id();
-  hello.has_control = options.server.has_value();
+  hello.has_control = options.server && options.has_control;
   hello.name = options.name;
   return hello;
 }
@@ -94,17 +94,16 @@ void LiveRun::show(const LiveView& view, LiveMap& map) {
   map.set_latest(LatestSlot::kWindow, protocol::encode_window(view, map.correction()));
   const Image<float> image = view.image();
   const Image<float> small = shrink(image.view(), kMostImageWidth);
-  map.set_latest(LatestSlot::kImage,
-                 protocol::encode_image({view.frame_id, image.width(), image.height(),
-                                         encode_grey_jpeg(small.view(), kJpegQuality)},
-                                        view.pixels));
+  map.set_latest(LatestSlot::kImage, protocol::encode_image({view.frame_id, image.width(), image.height(),
+                                                             encode_grey_jpeg(small.view(), kJpegQuality)},
+                                                            view.pixels));
 }
 
 void LiveRun::update_status(LiveMap& map, std::size_t viewers) {
   const Clock::time_point now = Clock::now();
   protocol::Status status = status_;
   status.viewers = static_cast<std::uint32_t>(viewers);
-  status.state = finished_.load()        ? protocol::RunState::kFinished
+  status.state = finished_.load()       ? protocol::RunState::kFinished
                  : control_.is_paused() ? protocol::RunState::kPaused
                                         : protocol::RunState::kRunning;
   if (now - last_status_ >= kStatusInterval) {

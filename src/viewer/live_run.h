@@ -27,6 +27,7 @@ struct LiveRunOptions {
   std::string name;                     ///< Of the sequence.
   std::optional<ServerOptions> server;  ///< None: only recorded.
   std::vector<Eigen::Vector3d> truth;   ///< Positions of the ground truth's cameras, in order.
+  bool has_control = true;              ///< Whether pages can pause it: after_frame() is called after each frame.
   bool is_paused = false;               ///< From before the first frame on.
   TruthAligner align;                   ///< Called on the server's thread; must not throw.
 };
@@ -41,7 +42,8 @@ class LiveRun {
   std::shared_ptr<RunObserver> observer() const { return feed_; }
   /// A message of the run's log. From any thread.
   void log(LogLevel level, const std::string& text) { feed_->add_log(level, text); }
-  /// To be called by the run before the first and after each frame: waits while a page has paused it. `stop` ends the waiting.
+  /// To be called by the run before the first and after each frame: waits while a page has paused it. `stop` ends the
+  /// waiting.
   void after_frame(int done, int count, const std::atomic<bool>& stop);
   /// The last frame is done.
   void finish();

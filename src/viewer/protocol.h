@@ -54,10 +54,10 @@ struct Keyframe {
   double timestamp = 0;
   SE3d T_world_camera;  ///< Of the odometry.
   std::vector<Eigen::Vector3f> points;
-  std::vector<float> depth_stddev;       ///< Of the inverse depth, relative to it.
+  std::vector<float> depth_stddev;  ///< Of the inverse depth, relative to it.
   std::vector<std::uint8_t> intensity;
-  std::vector<std::uint8_t> is_corner;   ///< 0 or 1.
-  std::vector<std::int64_t> links;       ///< Keyframes that see the same points.
+  std::vector<std::uint8_t> is_corner;  ///< 0 or 1.
+  std::vector<std::int64_t> links;      ///< Keyframes that see the same points.
 };
 
 /// Points without a usable depth are left out.

@@ -101,8 +101,8 @@ TEST(Protocol, KeyframePointsAreInTheCamera) {
 }
 
 TEST(Protocol, KeyframeMessage) {
-  Keyframe keyframe = to_keyframe(7, some_pose(), std::vector<MapPoint>{{1, 2, 0.5f, 0.1f, 9, true}},
-                                  {100, 80, 50, 60, 49.5, 39.5});
+  Keyframe keyframe =
+      to_keyframe(7, some_pose(), std::vector<MapPoint>{{1, 2, 0.5f, 0.1f, 9, true}}, {100, 80, 50, 60, 49.5, 39.5});
   keyframe.timestamp = 1.5;
   keyframe.links = {3, 5};
   const Bytes bytes = encode(keyframe);

@@ -8,20 +8,11 @@
 #include <memory>
 #include <string>
 
-#include "viewer/listen_address.h"
 #include "viewer/live_map.h"
 #include "viewer/protocol.h"
+#include "viewer/server_options.h"
 
 namespace ldso {
-
-struct ServerOptions {
-  ListenAddress address;
-  std::string token;                ///< Needed for page and stream; empty: none is.
-  std::size_t most_connections = 48;  ///< Beyond these new ones are refused.
-  std::size_t most_viewers = 16;    ///< Of the connections, those that receive the stream.
-  int request_seconds = 10;         ///< Within which a request has to come in and its answer to be taken.
-  int silent_seconds = 30;          ///< After which a page that answers no ping is given up.
-};
 
 class Server {
  public:

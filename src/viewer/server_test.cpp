@@ -21,8 +21,11 @@ class ServerTest : public testing::Test {
     options.address.port = 0;
     map_.start({});
     server_ = std::make_unique<Server>(
-        options, map_, [this](LiveMap&, std::size_t viewers) { viewers_.store(viewers), ++ticks_, ticks_.notify_all(); },
-        [this](protocol::Command command) { last_command_.store(static_cast<int>(command)), last_command_.notify_all(); });
+        options, map_,
+        [this](LiveMap&, std::size_t viewers) { viewers_.store(viewers), ++ticks_, ticks_.notify_all(); },
+        [this](protocol::Command command) {
+          last_command_.store(static_cast<int>(command)), last_command_.notify_all();
+        });
   }
   TestClient client() const { return TestClient(server_->port()); }
   std::string get(const std::string& target) const { return client().get(target); }
@@ -53,8 +56,8 @@ TEST_F(ServerTest, ServesThePageAndNothingElse) {
   EXPECT_NE(page.find("X-Content-Type-Options: nosniff"), std::string::npos);
   EXPECT_EQ(status_of(get("/app.js")), 200);
   EXPECT_EQ(status_of(get("/style.css?x=1")), 200);
-  for (const char* target : {"/nothing", "/../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "/app.js/..", "//", "/./app.js",
-                             "/app.js%00", "/stream/", "*"}) {
+  for (const char* target : {"/nothing", "/../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "/app.js/..", "//",
+                             "/./app.js", "/app.js%00", "/stream/", "*"}) {
     EXPECT_EQ(status_of(get(target)), 404) << target;
   }
 }
@@ -146,7 +149,7 @@ TEST_F(ServerTest, StreamBeginsWithAHelloAndTakesCommands) {
 TEST_F(ServerTest, StreamsThatMisbehaveAreClosed) {
   start();
   std::vector<std::string> attacks = {
-      std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14),  // 2^63 bytes announced
+      std::string("\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14),   // 2^63 bytes announced
       std::string("\x82\xfe\xff\xff\0\0\0\0", 8) + std::string(65535, 'x'),  // 64 kB
       std::string("\x82\x01\x01", 3),                                        // not masked
       std::string("\xf2\x81\0\0\0\0\x01", 7),                                // reserved bits
@@ -170,12 +173,14 @@ TEST_F(ServerTest, StreamsThatMisbehaveAreClosed) {
 TEST_F(ServerTest, BrokenUpgradesAreRefused) {
   start();
   TestClient no_key = client();
-  no_key.send("GET /stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-              "Sec-WebSocket-Version: 13\r\n\r\n");
+  no_key.send(
+      "GET /stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+      "Sec-WebSocket-Version: 13\r\n\r\n");
   EXPECT_NE(status_of(no_key.receive("\r\n\r\n")), 101);
   TestClient old_version = client();
-  old_version.send("GET /stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
-                   "Sec-WebSocket-Version: 1\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  old_version.send(
+      "GET /stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+      "Sec-WebSocket-Version: 1\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
   EXPECT_NE(status_of(old_version.receive("\r\n\r\n")), 101);
   expect_alive();
 }

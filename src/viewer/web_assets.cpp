@@ -10,11 +10,10 @@
 #define LDSO_SECTION ".section .rodata"
 #define LDSO_SYMBOL(name) name
 #endif
-#define LDSO_EMBED(name, file)                                                       \
-  __asm__(LDSO_SECTION "\n.globl " LDSO_SYMBOL(#name "_begin") "\n.globl "           \
-          LDSO_SYMBOL(#name "_end") "\n" LDSO_SYMBOL(#name "_begin") ":\n.incbin \"" \
-          LDSO_WEB_DIR "/" file "\"\n" LDSO_SYMBOL(#name "_end") ":\n.byte 0\n.text\n"); \
-  extern "C" const char name##_begin[];                                              \
+#define LDSO_EMBED(name, file)                                                                                         \
+  __asm__(LDSO_SECTION "\n.globl " LDSO_SYMBOL(#name "_begin") "\n.globl " LDSO_SYMBOL(#name "_end") "\n" LDSO_SYMBOL( \
+      #name "_begin") ":\n.incbin \"" LDSO_WEB_DIR "/" file "\"\n" LDSO_SYMBOL(#name "_end") ":\n.byte 0\n.text\n");   \
+  extern "C" const char name##_begin[];                                                                                \
   extern "C" const char name##_end[]
 
 LDSO_EMBED(ldso_web_index, "index.html");

@@ -10,7 +10,7 @@ struct WebAsset {
   std::string_view path;  ///< "/", "/app.js", ...
   std::string_view type;  ///< Media type.
   std::string_view content;
-  bool is_page = false;   ///< The page itself, which takes the token; the rest is code without anything of the run.
+  bool is_page = false;  ///< The page itself, which takes the token; the rest is code without anything of the run.
 };
 
 /// Nothing if there is no such file.

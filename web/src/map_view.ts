@@ -70,6 +70,7 @@ export class MapView {
   private cutoff = Infinity; // frame id up to which things are shown
   private lastPosition: THREE.Vector3 | null = null; // of the camera that is followed
   private fittedSize = 0;
+  private box: THREE.Box3 | null = null; // see bounds(); null if it has to be computed again
   private touched = false; // the user has moved the view
   private dirty = true;
   private lastRender = 0;
@@ -111,7 +112,12 @@ export class MapView {
   set(settings: Partial<MapViewSettings>): void {
     const before = { ...this.settings };
     Object.assign(this.settings, settings);
-    if (before.corrected !== this.settings.corrected) this.rebuildEdges();
+    if (before.corrected !== this.settings.corrected) {
+      this.box = null;
+      this.rebuildEdges();
+      this.updateWindow();
+      this.updateCamera();
+    }
     if (before.follow !== this.settings.follow) this.lastPosition = null;
     if (before.keyframes !== this.settings.keyframes || before.covisibility !== this.settings.covisibility) {
       this.rebuildEdges();
@@ -129,6 +135,7 @@ export class MapView {
   /** Brings in what the model says has changed. */
   sync(changes: Changes): void {
     if (changes.reset) this.clear();
+    if (changes.reset || changes.poses || changes.framesFrom < Infinity) this.box = null;
     for (const { keyframe, points } of changes.keyframes) {
       this.cloud.add(keyframe.index, points);
       this.measure(points.xyz);
@@ -395,7 +402,9 @@ export class MapView {
 
   /** Of the trajectory and the nearer points, in the scene. */
   private bounds(): THREE.Box3 {
+    if (this.box) return this.box;
     const box = new THREE.Box3();
+    this.box = box;
     const frames = this.model.frames;
     const step = Math.max(1, Math.floor(frames.length / 2000));
     for (let i = 0; i < frames.length; i += step) {
