@@ -43,8 +43,18 @@ const MOST_WINDOW = 64;
 const SLOW_MS = 55;
 const FAST_MS = 22;
 const REST_MS = 250;
+const LONGEST_REST_MS = 1500;
 
 const FRUSTUM_EDGES: [number, number][] = [[0, 1], [0, 2], [0, 3], [0, 4], [1, 2], [2, 3], [3, 4], [4, 1]];
+
+/** Whether a processor draws the pictures instead of a graphics card. */
+function isSoftwareRenderer(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const info = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? String(gl!.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
 
 export class MapView {
   readonly settings: MapViewSettings = { ...DEFAULT_SETTINGS };
@@ -73,7 +83,11 @@ export class MapView {
   private box: THREE.Box3 | null = null; // see bounds(); null if it has to be computed again
   private touched = false; // the user has moved the view
   private dirty = true;
-  private lastRender = 0;
+  private hasRendered = false; // when the last picture was asked for
+  private lastFrame = 0;
+  private lastChange = 0;
+  private drawnLayers = LAYERS;
+  private msPerLayer = 0;
   private depthSum = 0;
   private depthCount = 0;
   private heightRange = new THREE.Vector2(-1, 1);
@@ -83,8 +97,10 @@ export class MapView {
     private readonly model: MapModel,
     private readonly onRender: () => void = () => {},
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    const isSlow = isSoftwareRenderer();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !isSlow, powerPreference: 'high-performance' });
+    this.renderer.setPixelRatio(isSlow ? 1 : Math.min(window.devicePixelRatio, 2));
+    if (isSlow) this.stats.layers = 2;
     this.scene.background = new THREE.Color(COLORS.background);
     this.world.rotation.x = Math.PI;
     this.scene.add(this.world, this.grid);
@@ -464,25 +480,43 @@ export class MapView {
   private readonly loop = (now: number): void => {
     requestAnimationFrame(this.loop);
     this.controls.update();
+    if (this.hasRendered) this.adapt(now - this.lastFrame);
+    this.lastFrame = now;
+    this.hasRendered = true;
     if (this.dirty) {
-      // The time between two frames in a row says how long drawing takes, wherever it is done.
-      const elapsed = now - this.lastRender;
-      if (elapsed < 1000) this.stats.renderMs += 0.3 * (elapsed - this.stats.renderMs);
-      if (elapsed < 1000 && this.stats.renderMs > SLOW_MS && this.stats.layers > 1) --this.stats.layers;
-      if (this.stats.renderMs < FAST_MS && this.stats.layers < LAYERS) ++this.stats.layers;
-      this.lastRender = now;
       this.dirty = false;
+      this.lastChange = now;
       this.render(this.stats.layers);
-    } else if (this.stats.layers < LAYERS && this.lastRender > 0 && now - this.lastRender > REST_MS) {
-      this.lastRender = 0; // At rest everything is drawn, once.
-      this.render(LAYERS);
+    } else if (this.drawnLayers < this.layersAtRest() && now - this.lastChange > REST_MS) {
+      this.render(this.layersAtRest());
+    } else {
+      this.hasRendered = false;
     }
   };
+
+  /** To the time until the browser asks for the next picture: it says how long one takes, wherever it is drawn. */
+  private adapt(elapsed: number): void {
+    if (document.hidden) return;
+    const perLayer = elapsed / this.drawnLayers;
+    this.stats.renderMs += 0.3 * (Math.min(elapsed, 5000) - this.stats.renderMs);
+    this.msPerLayer += 0.3 * (perLayer - this.msPerLayer);
+    if (this.drawnLayers !== this.stats.layers) return; // That was one at rest.
+    if (elapsed > 4 * SLOW_MS) this.stats.layers = Math.max(1, this.stats.layers >> 1);
+    else if (this.stats.renderMs > SLOW_MS && this.stats.layers > 1) --this.stats.layers;
+    else if (this.stats.renderMs < FAST_MS && this.stats.layers < LAYERS) ++this.stats.layers;
+  }
+
+  /** As many as can be drawn without keeping the user waiting for the next movement. */
+  private layersAtRest(): number {
+    const affordable = Math.floor(LONGEST_REST_MS / Math.max(this.msPerLayer, 1e-3));
+    return Math.min(LAYERS, Math.max(this.stats.layers, affordable));
+  }
 
   private render(layers: number): void {
     this.updateLook();
     this.updateClipping();
     this.cloud.showLayers(layers);
+    this.drawnLayers = layers;
     this.renderer.render(this.scene, this.camera);
     ++this.stats.renders;
     this.onRender();

@@ -7,7 +7,7 @@ import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 
 const [program, sequence, work, modules] = process.argv.slice(2);
 const executable = [process.env.LDSO_CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
@@ -16,7 +16,7 @@ if (!executable) {
   console.log('skipped: there is no Chromium (package chromium; LDSO_CHROMIUM names another one)');
   process.exit(77);
 }
-const { chromium } = createRequire(join(modules, 'x.js'))('playwright-core');
+const { chromium } = createRequire(resolve(modules, 'x.js'))('playwright-core');
 const PATIENCE_MS = 120_000;
 const folder = join(work, 'viewer');
 rmSync(folder, { recursive: true, force: true });
