@@ -24,9 +24,11 @@ TEST(RunFeed, NothingOfTheMapIsLostAndOnlyTheNewestViewIsKept) {
       FrameEvent event;
       event.frame.frame_id = id;
       feed.on_frame(std::move(event));
-      LiveView view;
-      view.frame_id = id;
-      if (feed.wants_view()) feed.on_view(std::move(view));
+      if (!feed.wants_view()) continue;
+      LiveView newest;
+      newest.frame_id = id;
+      newest.T_world_camera = SE3d();
+      feed.on_view(std::move(newest));
     }
   });
   std::int64_t newest_view = -1;

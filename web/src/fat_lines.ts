@@ -36,6 +36,7 @@ const FRAGMENT = /* glsl */ `
   varying float across;
   void main() {
     gl_FragColor = vec4(color, opacity * (1.0 - smoothstep(0.6, 1.0, abs(across))));
+    #include <colorspace_fragment>
   }
 `;
 

@@ -172,7 +172,7 @@ export class MapView {
     const box = this.bounds();
     if (box.isEmpty()) return;
     const center = box.getCenter(new THREE.Vector3());
-    const radius = Math.max(0.5 * box.getSize(new THREE.Vector3()).length(), 3 * this.unit());
+    const radius = Math.max(0.5 * box.getSize(new THREE.Vector3()).length(), 1.4 * this.unit());
     const distance = radius / Math.sin((0.5 * this.camera.fov * Math.PI) / 180);
     this.look(center, center.clone().add(new THREE.Vector3(-0.45, 0.62, 0.75).normalize().multiplyScalar(distance)));
     this.fittedSize = 2 * radius;

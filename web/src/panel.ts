@@ -85,7 +85,8 @@ export class Panel {
     const status = model.status;
     const set = (id: string, text: string) => (element(id).textContent = text);
     set('n-points', thousands(model.pointCount));
-    set('n-keyframes', thousands(model.keyframes.length + (this.isReplay ? 0 : (model.window?.keyframes.length ?? 0))));
+    const inWindow = model.window?.keyframes.filter((k) => !model.keyframe(k.id)).length ?? 0;
+    set('n-keyframes', thousands(model.keyframes.length + inWindow));
     set('n-loops', thousands(model.loops.length));
     const count = status?.count ?? 0;
     set('n-frames', count > 0 ? `${thousands(status!.done)} / ${thousands(count)}` : thousands(model.frames.length));

@@ -125,7 +125,13 @@ export class Plots {
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
     context.textAlign = 'left';
     context.fillStyle = '#93a0b4';
-    context.fillText(strip.name + (strip.unit ? ` [${strip.unit}]` : ''), 0, top + 11);
+    const unit = strip.unit ? ` [${strip.unit}]` : '';
+    const range = strip.fromZero ? `up to ${high.toFixed(strip.digits)}`
+      : `${low.toFixed(strip.digits)} to ${high.toFixed(strip.digits)}`;
+    context.fillText(strip.name + unit, 0, top + 11);
+    const textWidth = context.measureText(strip.name + unit).width;
+    context.fillStyle = '#5c6879';
+    if (hasData) context.fillText(range, textWidth + 8, top + 11);
     context.textAlign = 'right';
     context.fillStyle = strip.color;
     const value = picked ? strip.value(picked) : NaN;
@@ -133,8 +139,6 @@ export class Plots {
     if (!hasData) context.fillStyle = '#5c6879';
     context.fillText(
       hasData ? where + (Number.isFinite(value) ? value.toFixed(strip.digits) : '–') : 'not known', width, top + 11);
-    context.fillStyle = '#5c6879';
-    if (hasData) context.fillText(high.toFixed(strip.digits), width - 2, top + LABEL + 10);
   }
 
   private drawMarks(context: CanvasRenderingContext2D, top: number, width: number): void {
