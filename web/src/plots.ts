@@ -18,7 +18,7 @@ export const STRIPS: Strip[] = [
     value: (f) => (f.frameMs > 0 ? f.frameMs : NaN) },
   { name: 'tracked points', unit: '', digits: 0, color: '#58d68d', fromZero: true, value: (f) => tracked(f, f.points) },
   { name: 'residual', unit: 'grey levels', digits: 2, color: '#ffd23f', fromZero: true,
-    value: (f) => tracked(f, f.residual) },
+    value: (f) => (f.residual > 0 ? tracked(f, f.residual) : NaN) },
   { name: 'brightness a', unit: '', digits: 3, color: '#d28bff', fromZero: false, value: (f) => tracked(f, f.a) },
   { name: 'exposure', unit: 'ms', digits: 2, color: '#ff8f5a', fromZero: true,
     value: (f) => (f.exposureMs > 0 ? f.exposureMs : NaN) },
