@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
+#include <functional>
 #include <map>
 #include <mutex>
 
@@ -43,7 +43,10 @@ class Listener final : public RunObserver {
 
 SlamResult run(int frames, const std::shared_ptr<RunObserver>& observer) {
   Slam slam(scene_calibration(), Settings{}, {}, observer);
-  for (int i = 0; i < frames; ++i) slam.process(draw_scene(i).view(), 0.1 * i);
+  for (int i = 0; i < frames; ++i) {
+    const Image<std::uint8_t> image = draw_scene(i);
+    slam.process(image.view(), 0.1 * i);
+  }
   return slam.finish();
 }
 

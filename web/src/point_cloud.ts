@@ -47,7 +47,7 @@ const VERTEX = /* glsl */ `
       gl_PointSize = 0.0;
       return;
     }
-    if (mode == 0) tint = vec3(pow(look.x, 0.75) * 0.9 + 0.1);
+    if (mode == 0) tint = vec3(pow(look.x, 0.6) * 0.85 + 0.15);
     else if (mode == 1) tint = ramp((-world.y - heights.x) / max(heights.y - heights.x, 1e-6));
     else if (mode == 2) tint = ramp(look.y);
     else tint = ramp((host - firstHost) / max(lastHost - firstHost, 1.0));
