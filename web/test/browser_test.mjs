@@ -22,9 +22,12 @@ const folder = join(work, 'viewer');
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 
+const children = [];
+
 /** Starts the program; resolves once it has printed the address of its page. */
 function start(...args) {
   const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'inherit'], env: { ...process.env, DISPLAY: '', WAYLAND_DISPLAY: '' } });
+  children.push(child);
   const ended = new Promise((done) => child.on('exit', (code, signal) => done(code ?? signal)));
   const url = new Promise((found, failed) => {
     let text = '';
@@ -232,6 +235,7 @@ try {
 } catch (error) {
   failure = error;
 }
+for (const child of children) if (child.exitCode === null) child.kill('SIGKILL');
 await context.close();
 rmSync(profile, { recursive: true, force: true });
 if (failure) {
