@@ -4,7 +4,7 @@
 # The one target that others link. Its rooms are exported with it, as its static libraries; their headers are private.
 add_library(ldso_library INTERFACE)
 add_library(ldso::ldso ALIAS ldso_library)
-target_link_libraries(ldso_library INTERFACE ldso_slam)
+target_link_libraries(ldso_library INTERFACE ldso_slam ldso_viewer)
 set_target_properties(ldso_library PROPERTIES EXPORT_NAME ldso)
 if(NOT LDSO_INSTALL)
   return()

@@ -11,6 +11,12 @@ build_jobs() {
   echo $((processors > 1 ? processors : 1))
 }
 
+# install_node: what the viewer is built with, unless it is there from anywhere; ldso can be built without.
+install_node() {
+  command -v node >/dev/null && command -v npm >/dev/null && return
+  scripts/install_packages.sh viewer || echo "no Node: ldso is built without its viewer"
+}
+
 # configure PRESET [CMAKE OPTIONS...]
 configure() {
   if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]] && command -v ccache >/dev/null; then

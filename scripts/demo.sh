@@ -35,6 +35,7 @@ result=$out/result
 
 step "Installing what is missing"
 scripts/install_packages.sh build
+install_node
 
 step "Building $ldso"
 configure release

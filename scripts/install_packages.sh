@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# install_packages.sh SECTION...: installs what is missing of the sections of packages.txt (build, test, check).
+# install_packages.sh SECTION...: installs what is missing of the sections of packages.txt (build, test, viewer, ...).
 #
 # Does nothing, and needs neither network nor root, if everything is there. LDSO_SKIP_PACKAGES=1 skips it altogether,
 # for systems that have the libraries from elsewhere.
@@ -8,7 +8,7 @@ export LC_ALL=C
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 fail() { echo "install_packages.sh: $*" >&2; exit 1; }
-(($# > 0)) || fail "which sections of packages.txt? build, test or check"
+(($# > 0)) || fail "which sections of packages.txt? build, test, viewer, browser or check"
 [[ ${LDSO_SKIP_PACKAGES:-0} == 1 ]] && exit 0
 
 # packages_of SECTION: its names, one a line.

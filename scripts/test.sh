@@ -32,6 +32,7 @@ if [[ -n $rooms ]]; then
 fi
 
 scripts/install_packages.sh build test
+install_node
 configure "$preset"
 build "$preset" "${targets[@]}"
 

@@ -15,6 +15,7 @@
 #include "ldso/calibration.h"
 #include "ldso/image.h"
 #include "ldso/log.h"
+#include "ldso/observer.h"
 #include "ldso/records.h"
 #include "ldso/settings.h"
 #include "ldso/sim3.h"
@@ -79,9 +80,11 @@ struct SlamResult {
 /// `Settings::threads` is. One object must not be used from several threads at once; several objects may.
 class Slam {
  public:
-  /// `log` hears of losses and restarts; it may be empty.
+  /// `log` hears of losses and restarts; it may be empty. `observer` hears of everything while it happens (to show it,
+  /// for instance: ldso/viewer.h); there need not be one.
   /// Throws Error if the calibration or a setting makes no sense.
-  Slam(const Calibration& calibration, const Settings& settings, LogSink log = {});
+  Slam(const Calibration& calibration, const Settings& settings, LogSink log = {},
+       std::shared_ptr<RunObserver> observer = {});
   ~Slam();
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;

@@ -1,6 +1,9 @@
 #include "app/interrupt.h"
 
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
 
 namespace ldso {
 namespace {
@@ -27,5 +30,13 @@ InterruptGuard::~InterruptGuard() {
 }
 
 const std::atomic<bool>& InterruptGuard::flag() const { return interrupted; }
+
+void InterruptGuard::wait() const {
+  // A signal handler cannot notify: the flag is looked at from time to time.
+  std::mutex mutex;
+  std::condition_variable never;
+  std::unique_lock lock(mutex);
+  while (!interrupted.load()) never.wait_for(lock, std::chrono::milliseconds(50));
+}
 
 }  // namespace ldso

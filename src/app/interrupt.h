@@ -17,6 +17,9 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   const std::atomic<bool>& flag() const;
+
+  /// Until the first signal comes.
+  void wait() const;
 };
 
 }  // namespace ldso

@@ -12,6 +12,7 @@
 #include "app/experiment.h"
 #include "app/run.h"
 #include "app/versions.h"
+#include "app/view.h"
 #include "app/vocab.h"
 #ifdef LDSO_HAS_SIMULATE
 #include "app/simulate.h"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = 0;
   ldso::add_run_command(app, exit_code);
+  ldso::add_view_command(app);
   ldso::add_eval_command(app);
   ldso::add_vocab_command(app);
 #ifdef LDSO_HAS_SIMULATE

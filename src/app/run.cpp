@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/browser.h"
 #include "app/interrupt.h"
+#include "app/live_truth.h"
 #include "app/loop_pictures.h"
 #include "app/progress_display.h"
 #include "app/run_as_job.h"
@@ -18,6 +20,7 @@
 #include "io/settings_file.h"
 #include "ldso/error.h"
 #include "slam/sequence_runner.h"
+#include "viewer/live_run.h"
 
 namespace ldso {
 namespace {
@@ -29,8 +32,10 @@ struct RunArguments {
   DatasetOptions dataset;
   std::optional<fs::path> config, vocabulary;
   std::optional<int> threads;
+  std::optional<std::string> view;
   std::vector<std::string> set;
-  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false;
+  bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false, view_exit = false,
+       view_paused = false;
 };
 
 void add_options(CLI::App& command, RunArguments& a) {
@@ -54,6 +59,14 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_flag("--loop-pictures", a.loop_pictures, "Also write a picture of each closed loop: loops/*.png")
       ->excludes(no_loops);
   command.add_flag("--kitti", a.kitti, "Also write trajectory_kitti.txt");
+  CLI::Option* view = command.add_flag(
+      "--view{127.0.0.1}", a.view,
+      "Show the run on a page in the browser while it goes on; --view=ADDRESS:PORT to serve it elsewhere than at " +
+          viewer_url("127.0.0.1", kDefaultViewerPort, ""));
+  command.add_flag("--view-exit", a.view_exit, "End with the run instead of serving the page until Ctrl-C")
+      ->needs(view);
+  command.add_flag("--view-paused", a.view_paused, "Wait at the first frame until the page says continue or step")
+      ->needs(view);
   command.add_flag("--quiet", a.quiet, "Print warnings only");
   command.add_flag(
       "--job", a.job,
@@ -95,19 +108,39 @@ class WarningLog {
   std::vector<std::string> warnings_;
 };
 
+LiveRunOptions live_options(const RunArguments& a, const Dataset& dataset) {
+  LiveRunOptions options;
+  options.name = a.sequence.lexically_normal().string();
+  add_truth(dataset, options);
+  if (a.view) options.server = make_server_options(*a.view);
+  options.is_paused = a.view_paused;
+  return options;
+}
+
 /// Runs the sequence with everything that is shown meanwhile.
-void run_with_display(const Dataset& dataset, const RunArguments& a, RunSummary& summary) {
+void run_with_display(const Dataset& dataset, const RunArguments& a, LiveRun& live, RunSummary& summary) {
   ProgressDisplay display(a.quiet);
-  WarningLog log(display);
+  WarningLog warnings(display);
+  const auto log = [&](LogLevel level, const std::string& text) {
+    warnings(level, text);
+    live.log(level, text);
+  };
   for (const std::string& warning : dataset.warnings()) log(LogLevel::kWarning, warning);
   const InterruptGuard interrupt;
   RunOptions options;
   options.stop = &interrupt.flag();
-  options.progress = [&display](const RunProgress& progress) { display.update(progress); };
-  summary.run = run_sequence(
-      dataset, summary.settings, [&log](LogLevel level, const std::string& text) { log(level, text); }, options);
+  options.observer = live.observer();
+  options.progress = [&](const RunProgress& progress) {
+    display.update(progress);
+    live.after_frame(progress.done, progress.count, interrupt.flag());
+  };
+  live.after_frame(0, dataset.size(), interrupt.flag());
+  summary.run = run_sequence(dataset, summary.settings, log, options);
+  summary.run.seconds -= live.paused_seconds();
   if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
-  summary.warnings = log.warnings();
+  live.finish();
+  summary.recording = live.recording();
+  summary.warnings = warnings.warnings();
 }
 
 /// Frames that cannot be read again cost their pictures only.
@@ -134,7 +167,10 @@ int run(const RunArguments& a) {
   const std::unique_ptr<Dataset> dataset = open_dataset(a.sequence, a.dataset);
   prepare_output_folder(a.out);
 
-  run_with_display(*dataset, a, summary);
+  LiveRun live(live_options(a, *dataset));
+  if (a.view) announce_page(live.url());
+
+  run_with_display(*dataset, a, live, summary);
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, *dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, *dataset);
@@ -147,6 +183,7 @@ int run(const RunArguments& a) {
                 "the frames up to there are saved in " + a.out.string());
   }
   const int code = exit_code_of(summary);
+  if (a.view && !a.view_exit && !summary.run.stopped) serve_until_interrupted(live.url());
   if (code == kNothingTrackedExitCode) {
     const auto stretches = untracked_stretches(summary);
     std::cerr << "error: " << a.sequence.string() << ": no frame could be tracked"

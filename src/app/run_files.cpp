@@ -12,6 +12,7 @@
 #include "io/text_file.h"
 #include "io/trajectory_file.h"
 #include "ldso/error.h"
+#include "viewer/recording_file.h"
 
 namespace ldso {
 namespace {
@@ -82,6 +83,7 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   write_ply(folder / "map.ply", ply_points(summary.points));
   write_loop_files(folder, summary);
   write_picture(folder, summary);
+  write_recording(folder / kRecordingName, summary.recording);
   fs::remove(folder / "camera.txt");
   if (summary.run.passes > 1) write_file(folder / "camera.txt", camera_file_text(summary.run.calibration));
   write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");

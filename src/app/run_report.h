@@ -42,6 +42,7 @@ struct RunSummary {
   Trajectory odometry_trajectory;  ///< Before loop closing.
   std::vector<WorldPoint> odometry_points;
   std::vector<std::string> warnings;
+  std::vector<std::uint8_t> recording;  ///< For `ldso view`.
   RunEvaluation evaluation;
   RunEvaluation odometry_evaluation;  ///< Before loop closing.
 

@@ -101,6 +101,12 @@ void write_grey_png(const std::filesystem::path& path, ImageView<const float> gr
   encode_png(path, from_grey<std::uint8_t>(grey, 1.0F));
 }
 
+std::vector<std::uint8_t> encode_grey_jpeg(ImageView<const float> grey, int quality) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", from_grey<std::uint8_t>(grey, 1.0F), bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return bytes;
+}
+
 void write_grey16_png(const std::filesystem::path& path, ImageView<const float> grey) {
   encode_png(path, from_grey<std::uint16_t>(grey, k16BitPerGreyLevel));
 }

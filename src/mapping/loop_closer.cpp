@@ -240,6 +240,7 @@ void LoopCloser::optimize() {
     if (usable) record_of_loop.push_back(loop.record);
   }
   last_optimized_ = map_.size() - 1;
+  ++optimizations_;
   loops_in_graph_ = accepted_.size();
   graph.optimize(last_optimized_);
   for (std::size_t i = 0; i < record_of_loop.size(); ++i) {

@@ -67,6 +67,10 @@ class LoopCloser {
 
   /// Of all keyframes, in the order in which they were added.
   std::vector<CorrectedPose> poses() const;
+  /// Of the keyframe that was added last. There must be one.
+  CorrectedPose newest_pose() const { return {map_[map_.size() - 1].frame_id, corrected_.back()}; }
+  /// How often all poses have changed.
+  int optimizations() const { return optimizations_; }
   const std::vector<LoopRecord>& loops() const { return records_; }
   const StageTimes& times() const { return times_; }
   const KeyframeMap& map() const { return map_; }
@@ -109,8 +113,9 @@ class LoopCloser {
   std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
   std::vector<LoopRecord> records_;
   VarianceFactors variance_factors_;
-  int last_accepted_ = -1000;       ///< Keyframe of the last closed loop.
-  int last_optimized_ = -1000;      ///< Newest keyframe when the graph was optimized last.
+  int last_accepted_ = -1000;   ///< Keyframe of the last closed loop.
+  int last_optimized_ = -1000;  ///< Newest keyframe when the graph was optimized last.
+  int optimizations_ = 0;
   std::size_t loops_in_graph_ = 0;  ///< Those that the corrected poses take account of.
   StageTimes times_;
 };

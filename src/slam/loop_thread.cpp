@@ -34,11 +34,12 @@ std::shared_ptr<const Vocabulary> read_given(const LoopSettings& settings) {
 
 }  // namespace
 
-LoopThread::LoopThread(const LoopSettings& settings, LogSink log)
+LoopThread::LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
     : log_(std::move(log)),
       settings_(closer_settings(settings)),
       vocabulary_(read_given(settings)),
       queue_(kMostWaiting),
+      observer_(std::move(observer)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 LoopThread::~LoopThread() {
@@ -80,8 +81,34 @@ void LoopThread::process(const std::stop_token& stop) {
     const FinishedKeyframe& keyframe = item->keyframe;
     closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);
     publish(closer_->correction());
+    tell();
   }
-  if (!stop.stop_requested()) closer_->finish();
+  if (stop.stop_requested()) return;
+  closer_->finish();
+  if (closer_->optimizations() > optimizations_told_) tell();
+}
+
+void LoopThread::tell() {
+  if (!observer_) return;
+  LoopEvent event;
+  const std::vector<LoopRecord>& loops = closer_->loops();
+  loops_told_.resize(loops.size(), false);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (!loops[i].accepted || loops_told_[i]) continue;
+    loops_told_[i] = true;
+    event.accepted.push_back(loops[i]);
+    event.accepted.back().matches.clear();
+  }
+  if (closer_->optimizations() > optimizations_told_) {
+    for (const CorrectedPose& pose : closer_->poses()) event.poses.push_back({pose.frame_id, pose.S_world_keyframe});
+    optimizations_told_ = closer_->optimizations();
+  } else {
+    const CorrectedPose pose = closer_->newest_pose();
+    event.poses.push_back({pose.frame_id, pose.S_world_keyframe});
+  }
+  event.correction = closer_->correction();
+  event.candidates = static_cast<int>(loops.size());
+  observer_->on_loops(std::move(event));
 }
 
 void LoopThread::work(const std::stop_token& stop) {

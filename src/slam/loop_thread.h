@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ldso/log.h"
+#include "ldso/observer.h"
 #include "ldso/settings.h"
 #include "mapping/loop_closer.h"
 #include "odometry/window/finished_keyframe.h"
@@ -25,7 +26,7 @@ namespace ldso {
 class LoopThread {
  public:
   /// Throws Error if `settings.vocabulary` names a file that cannot be read.
-  LoopThread(const LoopSettings& settings, LogSink log);
+  LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer = {});
   /// Without finish() before it, keyframes that wait are dropped and no loop is closed.
   ~LoopThread();
   LoopThread(const LoopThread&) = delete;
@@ -49,6 +50,8 @@ class LoopThread {
   };
   void work(const std::stop_token& stop);
   void process(const std::stop_token& stop);
+  /// Tells the observer what has changed since it was told last.
+  void tell();
   /// Makes the correction after a keyframe known.
   void publish(const Sim3d& correction);
 
@@ -58,6 +61,9 @@ class LoopThread {
   BoundedQueue<Item> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.
   bool failed_ = false;
+  std::shared_ptr<RunObserver> observer_;  ///< With the next two of the thread's own.
+  int optimizations_told_ = 0;
+  std::vector<bool> loops_told_;  ///< Of all records: whether it was told as accepted.
 
   std::mutex mutex_;
   std::condition_variable published_;

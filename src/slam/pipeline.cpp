@@ -1,12 +1,16 @@
 #include "slam/pipeline.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "slam/live_view.h"
 #include "util/log.h"
 
 namespace ldso {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 /// Checks the settings before anything is built from them.
 const Settings& validated(const Settings& settings) {
@@ -22,21 +26,24 @@ std::string frame_name(const FrameRecord& frame) { return "frame " + std::to_str
 
 }  // namespace
 
-Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, LogSink log)
+Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, LogSink log,
+                   std::shared_ptr<RunObserver> observer)
     : log_(std::move(log)),
+      observer_(std::move(observer)),
       preprocessor_(calibration, validated(settings).photometry),
       pool_(settings.threads),
       odometry_(preprocessor_.output_camera(), preprocessor_.photometrically_calibrated(), settings, pool_) {
   result_.camera = preprocessor_.output_camera();
-  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_);
+  if (observer_) observer_->on_start(result_.camera);
+  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_);
 }
 
 const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame) {
-  OdometryOutput output;
-  {
-    const StageTimer timer(times_, "odometry");
-    output = odometry_.process(frame);
-  }
+  const Clock::time_point start = Clock::now();
+  OdometryOutput output = odometry_.process(frame);
+  const double frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  times_.add("odometry", frame_ms);
+  tell(output, frame, frame_ms);
   for (FinishedKeyframe& keyframe : output.finished) finish_keyframe(std::move(keyframe));
   for (FrameRecord& late : output.late) replace(std::move(late));
   note_change(output.frame);
@@ -44,7 +51,22 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
   return record(std::move(output.frame));
 }
 
+void Pipeline::tell(const OdometryOutput& output, const std::shared_ptr<const PreparedFrame>& frame, double frame_ms) {
+  if (!observer_) return;
+  const Window& window = odometry_.window();
+  FrameEvent event;
+  event.frame = output.frame;
+  event.T_world_camera = pose_in_world(window, output.frame);
+  event.exposure_ms = frame->exposure_known ? frame->exposure_ms : 0;
+  event.frame_ms = frame_ms;
+  event.points = active_points(window);
+  observer_->on_frame(std::move(event));
+  for (const FrameRecord& late : output.late) observer_->on_frame({late, true, pose_in_world(window, late)});
+  if (observer_->wants_view()) observer_->on_view(make_live_view(window, output.frame, frame));
+}
+
 void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
+  if (observer_) observer_->on_keyframe(keyframe.update, odometry_.window().intrinsics());
   result_.keyframes.push_back(loops_ ? keyframe.update : std::move(keyframe.update));
   result_.keyframes.back().constraints.clear();
   if (loops_) loops_->add(std::move(keyframe), odometry_.window().intrinsics());
@@ -75,6 +97,7 @@ const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const
   frame.reason = "skipped: " + reason;
   ++result_.skipped;
   log_to(log_, LogLevel::kWarning, frame_name(frame) + " is skipped: " + reason);
+  if (observer_) observer_->on_frame({frame});
   return record(std::move(frame));
 }
 
@@ -105,15 +128,11 @@ void Pipeline::note_change(const FrameRecord& frame) {
 }
 
 std::optional<SE3d> Pipeline::T_world_camera() const {
-  if (result_.frames.empty() || result_.frames.back().state != TrackingState::kTracked) return std::nullopt;
-  const FrameRecord& frame = result_.frames.back();
-  for (const auto& keyframe : odometry_.window().keyframes) {
-    if (keyframe->id() != frame.keyframe_id) continue;
-    const SE3d T = keyframe->state.T_c_w().inverse() * frame.T_keyframe_frame;
-    const Sim3d S = loops_ ? loops_->correction() : Sim3d();
-    return SE3d(S.rotation() * T.rotation(), S * T.translation());
-  }
-  return std::nullopt;
+  if (result_.frames.empty()) return std::nullopt;
+  const std::optional<SE3d> T = pose_in_world(odometry_.window(), result_.frames.back());
+  if (!T) return std::nullopt;
+  const Sim3d S = loops_ ? loops_->correction() : Sim3d();
+  return SE3d(S.rotation() * T->rotation(), S * T->translation());
 }
 
 SlamResult Pipeline::finish() {

@@ -11,6 +11,7 @@
 #include "image/frame.h"
 #include "image/frame_preprocessor.h"
 #include "ldso/log.h"
+#include "ldso/observer.h"
 #include "ldso/settings.h"
 #include "ldso/slam.h"
 #include "odometry/odometry.h"
@@ -22,8 +23,9 @@ namespace ldso {
 
 class Pipeline {
  public:
-  /// Throws Error if the calibration or a setting makes no sense.
-  Pipeline(const Calibration& calibration, const Settings& settings, LogSink log);
+  /// Throws Error if the calibration or a setting makes no sense. There need not be an observer.
+  Pipeline(const Calibration& calibration, const Settings& settings, LogSink log,
+           std::shared_ptr<RunObserver> observer = {});
 
   /// May be used from other threads while the pipeline works.
   const FramePreprocessor& preprocessor() const { return preprocessor_; }
@@ -52,12 +54,15 @@ class Pipeline {
   /// What was said of an earlier frame is superseded.
   void replace(FrameRecord late);
   void finish_keyframe(FinishedKeyframe&& keyframe);
+  /// Tells the observer, if there is one.
+  void tell(const OdometryOutput& output, const std::shared_ptr<const PreparedFrame>& frame, double frame_ms);
   /// Waits for loop closing and takes over what it found.
   void close_loops();
   /// Of the state of tracking: to the log and the result.
   void note_change(const FrameRecord& frame);
 
   LogSink log_;
+  std::shared_ptr<RunObserver> observer_;
   FramePreprocessor preprocessor_;
   ThreadPool pool_;
   Odometry odometry_;

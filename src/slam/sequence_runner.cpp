@@ -55,8 +55,9 @@ enum class PassEnd { kDone, kStopped, kBetterCalibration };
 /// One pass over the sequence with one calibration.
 class Pass {
  public:
-  Pass(const Dataset& dataset, const Calibration& calibration, const Settings& settings, const LogSink& log)
-      : dataset_(dataset), pipeline_(calibration, settings, log) {}
+  Pass(const Dataset& dataset, const Calibration& calibration, const Settings& settings, const LogSink& log,
+       const RunOptions& options)
+      : dataset_(dataset), pipeline_(calibration, settings, log, options.observer) {}
 
   void watch_calibration(const Calibration& calibration, const SelfCalibrationSettings& settings) {
     watch_frames_ = settings.frames;
@@ -114,7 +115,7 @@ SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const
   run.calibration = dataset.calibration();
   const Clock::time_point start = Clock::now();
   for (run.passes = 1;; ++run.passes) {
-    Pass pass(dataset, run.calibration, settings, log);
+    Pass pass(dataset, run.calibration, settings, log, options);
     if (settings.self_calibration.enabled && run.passes < settings.self_calibration.passes) {
       pass.watch_calibration(run.calibration, settings.self_calibration);
     }

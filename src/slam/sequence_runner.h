@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "io/dataset.h"
@@ -22,6 +23,7 @@ struct RunProgress {
 struct RunOptions {
   std::function<void(const RunProgress&)> progress;  ///< After each frame, on the calling thread.
   const std::atomic<bool>* stop = nullptr;           ///< Once true, the run ends after the frame it is at.
+  std::shared_ptr<RunObserver> observer = nullptr;   ///< Hears of everything while it happens.
 };
 
 struct SequenceRun {

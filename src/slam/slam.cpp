@@ -9,8 +9,8 @@
 namespace ldso {
 
 struct Slam::Impl {
-  Impl(const Calibration& calibration, const Settings& settings, LogSink log)
-      : pipeline(calibration, settings, std::move(log)) {}
+  Impl(const Calibration& calibration, const Settings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
+      : pipeline(calibration, settings, std::move(log), std::move(observer)) {}
 
   template <class T>
   FrameRecord process(ImageView<const T> image, float to_grey_levels, double timestamp,
@@ -58,8 +58,8 @@ FrameRecord Slam::Impl::process(ImageView<const T> image, float to_grey_levels, 
   return pipeline.process(prepared);
 }
 
-Slam::Slam(const Calibration& calibration, const Settings& settings, LogSink log)
-    : impl_(std::make_unique<Impl>(calibration, settings, std::move(log))) {}
+Slam::Slam(const Calibration& calibration, const Settings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
+    : impl_(std::make_unique<Impl>(calibration, settings, std::move(log), std::move(observer))) {}
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;

@@ -1,0 +1,34 @@
+#include "viewer/recording_file.h"
+
+#include "io/image_file.h"
+#include "io/text_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 8;
+
+}  // namespace
+
+void read_recording(const std::filesystem::path& path, LiveMap& map) {
+  const Bytes bytes = read_bytes(path);
+  const std::vector<protocol::Message> messages = protocol::split(bytes, path.string());
+  if (messages.empty() || messages.front().type != protocol::MessageType::kHello) {
+    throw Error(path.string(), "it is no recording of ldso", "give one that `ldso run` wrote");
+  }
+  protocol::Hello hello = protocol::decode_hello(messages.front().payload, path.string());
+  hello.mode = protocol::Mode::kReplay;
+  hello.has_control = false;
+  map.start(hello);
+  for (std::size_t i = 1; i < messages.size(); ++i) {
+    const std::uint8_t* first = messages[i].payload.data() - kHeaderBytes;
+    map.add_message(Bytes(first, messages[i].payload.data() + messages[i].payload.size()));
+  }
+}
+
+void write_recording(const std::filesystem::path& path, const Bytes& recording) {
+  write_file(path, {reinterpret_cast<const char*>(recording.data()), recording.size()});
+}
+
+}  // namespace ldso

@@ -1,0 +1,65 @@
+#include "viewer/run_feed.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ldso {
+
+void RunFeed::on_start(const PinholeIntrinsics& camera) {
+  const std::lock_guard lock(mutex_);
+  ++hello_.epoch;
+  hello_.camera = camera;
+  newest_frame_ = -1;
+  Inbox fresh;
+  fresh.start = hello_;
+  fresh.log = std::move(inbox_.log);
+  inbox_ = std::move(fresh);
+}
+
+void RunFeed::on_frame(FrameEvent event) {
+  const std::lock_guard lock(mutex_);
+  newest_frame_ = std::max(newest_frame_, event.frame.frame_id);
+  inbox_.frames.push_back(std::move(event));
+}
+
+void RunFeed::on_keyframe(const KeyframeUpdate& keyframe, const PinholeIntrinsics& camera) {
+  protocol::Keyframe shown = protocol::to_keyframe(keyframe.frame_id, keyframe.T_world_camera, keyframe.points, camera);
+  shown.timestamp = keyframe.timestamp;
+  for (const KeyframeConstraint& constraint : keyframe.constraints) shown.links.push_back(constraint.keyframe_id);
+  const std::lock_guard lock(mutex_);
+  inbox_.keyframes.push_back(std::move(shown));
+}
+
+void RunFeed::on_loops(LoopEvent event) {
+  loop_candidates_.store(event.candidates, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  inbox_.loops.push_back(std::move(event));
+}
+
+void RunFeed::on_view(LiveView view) {
+  wants_view_.store(false, std::memory_order_relaxed);
+  std::optional<LiveView> previous(std::move(view));  // What it replaces is let go of outside of the lock.
+  const std::lock_guard lock(mutex_);
+  inbox_.view.swap(previous);
+}
+
+void RunFeed::add_log(LogLevel level, const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  inbox_.log.push_back({newest_frame_, level == LogLevel::kWarning, text});
+}
+
+std::optional<LiveView> RunFeed::fetch(LiveMap& map) {
+  Inbox inbox;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(inbox, inbox_);
+  }
+  if (inbox.start) map.start(std::move(*inbox.start));
+  for (const protocol::Keyframe& keyframe : inbox.keyframes) map.add(keyframe);
+  for (FrameEvent& frame : inbox.frames) map.add(std::move(frame));
+  for (LoopEvent& loops : inbox.loops) map.add(std::move(loops));
+  for (const protocol::LogLine& line : inbox.log) map.add(line);
+  return std::move(inbox.view);
+}
+
+}  // namespace ldso
