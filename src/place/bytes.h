@@ -15,9 +15,9 @@
 
 namespace ldso {
 
-class ByteReader {
+class VocabularyReader {
  public:
-  ByteReader(std::span<const std::uint8_t> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+  VocabularyReader(std::span<const std::uint8_t> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
 
   template <class Unsigned>
   Unsigned number() {

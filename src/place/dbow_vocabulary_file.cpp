@@ -108,7 +108,7 @@ TextNode parse_text_node(NumberText& text, std::size_t nodes_so_far) {
   return parsed;
 }
 
-VocabularyNode parse_binary_node(ByteReader& reader, std::uint32_t node_count, std::uint32_t& id) {
+VocabularyNode parse_binary_node(VocabularyReader& reader, std::uint32_t node_count, std::uint32_t& id) {
   VocabularyNode node;
   id = reader.number<std::uint32_t>();
   node.parent = reader.number<std::uint32_t>();
@@ -125,7 +125,7 @@ VocabularyNode parse_binary_node(ByteReader& reader, std::uint32_t node_count, s
 }
 
 /// Checks that words are leaves and leaves words.
-void check_words(ByteReader& reader, const std::vector<VocabularyNode>& nodes) {
+void check_words(VocabularyReader& reader, const std::vector<VocabularyNode>& nodes) {
   std::vector<char> is_leaf(nodes.size(), 1);
   is_leaf[0] = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i) is_leaf[nodes[i].parent] = 0;
@@ -144,11 +144,11 @@ void check_words(ByteReader& reader, const std::vector<VocabularyNode>& nodes) {
 }  // namespace
 
 bool is_dbow3_binary(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= 8 && ByteReader(bytes, "").number<std::uint64_t>() == kDbow3Signature;
+  return bytes.size() >= 8 && VocabularyReader(bytes, "").number<std::uint64_t>() == kDbow3Signature;
 }
 
 Vocabulary parse_dbow3_binary(std::span<const std::uint8_t> bytes, const std::string& name) {
-  ByteReader reader(bytes, name);
+  VocabularyReader reader(bytes, name);
   reader.number<std::uint64_t>();
   if (reader.number<std::uint8_t>() != 0) {
     throw Error(name, "is a compressed file of DBoW3, which cannot be read",

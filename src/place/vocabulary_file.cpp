@@ -32,7 +32,8 @@ bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
 }
 
 /// The parents that the numbers of children tell, level after level.
-void set_parents(std::span<const std::uint8_t> child_counts, ByteReader& reader, std::vector<VocabularyNode>& nodes) {
+void set_parents(std::span<const std::uint8_t> child_counts, VocabularyReader& reader,
+                 std::vector<VocabularyNode>& nodes) {
   std::size_t next = 1;
   for (std::size_t parent = 0; parent < nodes.size(); ++parent) {
     if (child_counts[parent] > nodes.size() - next) reader.fail("its nodes do not fit together");
@@ -42,7 +43,7 @@ void set_parents(std::span<const std::uint8_t> child_counts, ByteReader& reader,
 }
 
 Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& name) {
-  ByteReader reader(bytes, name);
+  VocabularyReader reader(bytes, name);
   reader.take(kMagic.size());
   const auto version = reader.number<std::uint32_t>();
   if (version != kVersion)
@@ -54,7 +55,7 @@ Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& nam
       std::uint64_t{origin_size} + std::uint64_t{node_count} * 33 - 32 + std::uint64_t{word_count} * 4 + kChecksumSize;
   if (node_count == 0 || reader.left() < expected) reader.fail("the file is truncated");
   if (reader.left() > expected) reader.fail("there is something behind its end");
-  ByteReader checksum(bytes.last(kChecksumSize), name);
+  VocabularyReader checksum(bytes.last(kChecksumSize), name);
   if (checksum.number<std::uint64_t>() != fnv1a(bytes.first(bytes.size() - kChecksumSize)))
     reader.fail("the file is damaged (its checksum is wrong)");
 

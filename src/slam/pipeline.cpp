@@ -97,7 +97,11 @@ const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const
   frame.reason = "skipped: " + reason;
   ++result_.skipped;
   log_to(log_, LogLevel::kWarning, frame_name(frame) + " is skipped: " + reason);
-  if (observer_) observer_->on_frame({frame});
+  if (observer_) {
+    FrameEvent event;
+    event.frame = frame;
+    observer_->on_frame(std::move(event));
+  }
   return record(std::move(frame));
 }
 
