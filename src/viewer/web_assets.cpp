@@ -2,24 +2,13 @@
 
 #include <array>
 
-// The assembler puts the files as they are; LDSO_WEB_DIR comes from CMakeLists.txt.
-#ifdef __APPLE__
-#define LDSO_SECTION ".const_data"
-#define LDSO_SYMBOL(name) "_" name
-#else
-#define LDSO_SECTION ".section .rodata"
-#define LDSO_SYMBOL(name) name
-#endif
-#define LDSO_EMBED(name, file)                                                                                         \
-  __asm__(LDSO_SECTION "\n.globl " LDSO_SYMBOL(#name "_begin") "\n.globl " LDSO_SYMBOL(#name "_end") "\n" LDSO_SYMBOL( \
-      #name "_begin") ":\n.incbin \"" LDSO_WEB_DIR "/" file "\"\n" LDSO_SYMBOL(#name "_end") ":\n.byte 0\n.text\n");   \
-  extern "C" const char name##_begin[];                                                                                \
-  extern "C" const char name##_end[]
+#include "util/embedded_file.h"
 
-LDSO_EMBED(ldso_web_index, "index.html");
-LDSO_EMBED(ldso_web_script, "app.js");
-LDSO_EMBED(ldso_web_style, "style.css");
-LDSO_EMBED(ldso_web_icon, "icon.svg");
+// LDSO_WEB_DIR comes from CMakeLists.txt.
+LDSO_EMBED_FILE(ldso_web_index, LDSO_WEB_DIR "/index.html");
+LDSO_EMBED_FILE(ldso_web_script, LDSO_WEB_DIR "/app.js");
+LDSO_EMBED_FILE(ldso_web_style, LDSO_WEB_DIR "/style.css");
+LDSO_EMBED_FILE(ldso_web_icon, LDSO_WEB_DIR "/icon.svg");
 
 namespace ldso {
 namespace {
