@@ -25,12 +25,6 @@ struct FrameEvent {
   int points = 0;                      ///< Active points of the window afterwards.
 };
 
-/// A keyframe's pose after loop closing.
-struct KeyframePose {
-  std::int64_t keyframe_id = 0;
-  Sim3d S_world_keyframe;
-};
-
 /// What loop closing made of one more keyframe.
 struct LoopEvent {
   std::vector<LoopRecord> accepted;  ///< Loops that count from now on, without their matches.

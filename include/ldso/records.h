@@ -83,4 +83,10 @@ struct LoopRecord {
   std::vector<LoopMatchPixels> matches;  ///< Inliers of an accepted loop.
 };
 
+/// A keyframe's pose after loop closing.
+struct KeyframePose {
+  std::int64_t keyframe_id = 0;
+  Sim3d S_world_keyframe;
+};
+
 }  // namespace ldso

@@ -262,8 +262,8 @@ double LoopCloser::bytes_per_keyframe() const {
   return bytes / map_.size();
 }
 
-std::vector<CorrectedPose> LoopCloser::poses() const {
-  std::vector<CorrectedPose> poses;
+std::vector<KeyframePose> LoopCloser::poses() const {
+  std::vector<KeyframePose> poses;
   for (int i = 0; i < map_.size(); ++i) poses.push_back({map_[i].frame_id, corrected_[i]});
   return poses;
 }

@@ -39,12 +39,6 @@ struct LoopCloserSettings {
   int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
 };
 
-/// A keyframe's pose after loop closing.
-struct CorrectedPose {
-  std::int64_t frame_id = 0;
-  Sim3d S_world_keyframe;
-};
-
 class LoopCloser {
  public:
   explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings = {});
@@ -66,9 +60,9 @@ class LoopCloser {
   double bytes_per_keyframe() const;
 
   /// Of all keyframes, in the order in which they were added.
-  std::vector<CorrectedPose> poses() const;
+  std::vector<KeyframePose> poses() const;
   /// Of the keyframe that was added last. There must be one.
-  CorrectedPose newest_pose() const { return {map_[map_.size() - 1].frame_id, corrected_.back()}; }
+  KeyframePose newest_pose() const { return {map_[map_.size() - 1].frame_id, corrected_.back()}; }
   /// How often all poses have changed.
   int optimizations() const { return optimizations_; }
   const std::vector<LoopRecord>& loops() const { return records_; }

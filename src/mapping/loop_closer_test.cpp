@@ -70,25 +70,25 @@ double error_of_odometry(const Drive& drive) {
 
 double error_of(const Drive& drive, const LoopCloser& closer) {
   std::vector<Eigen::Vector3d> positions;
-  for (const CorrectedPose& pose : closer.poses()) positions.push_back(pose.S_world_keyframe.translation());
+  for (const KeyframePose& pose : closer.poses()) positions.push_back(pose.S_world_keyframe.translation());
   return error_of(drive, positions);
 }
 
 void expect_poses_of_odometry(const Drive& drive, const LoopCloser& closer) {
-  const std::vector<CorrectedPose> poses = closer.poses();
+  const std::vector<KeyframePose> poses = closer.poses();
   ASSERT_EQ(static_cast<int>(poses.size()), drive.size());
   for (int i = 0; i < drive.size(); ++i) {
-    EXPECT_EQ(poses[i].frame_id, drive.updates[i].frame_id);
+    EXPECT_EQ(poses[i].keyframe_id, drive.updates[i].frame_id);
     EXPECT_EQ(poses[i].S_world_keyframe.matrix(), Sim3d(drive.odometry[i]).matrix()) << i;
   }
 }
 
 void expect_finite(const Drive& drive, const LoopCloser& closer) {
-  const std::vector<CorrectedPose> poses = closer.poses();
+  const std::vector<KeyframePose> poses = closer.poses();
   ASSERT_EQ(static_cast<int>(poses.size()), drive.size());
-  for (const CorrectedPose& pose : poses) {
-    EXPECT_TRUE(pose.S_world_keyframe.matrix().allFinite()) << pose.frame_id;
-    EXPECT_GT(pose.S_world_keyframe.scale(), 0) << pose.frame_id;
+  for (const KeyframePose& pose : poses) {
+    EXPECT_TRUE(pose.S_world_keyframe.matrix().allFinite()) << pose.keyframe_id;
+    EXPECT_GT(pose.S_world_keyframe.scale(), 0) << pose.keyframe_id;
   }
 }
 
@@ -109,7 +109,7 @@ TEST(LoopCloserTest, TheScaleThatDriftedComesBack) {
   const Drive drive = circle_drive(52, 4, drift);
   const LoopCloser closer = closed(drive);
   // A map in one unit: keyframe i, whose unit is as large as unit[i], is scaled down by just that.
-  const std::vector<CorrectedPose> poses = closer.poses();
+  const std::vector<KeyframePose> poses = closer.poses();
   for (int i = 0; i < drive.size(); i += 5) {
     EXPECT_NEAR(poses[i].S_world_keyframe.scale() * drive.unit[i] / drive.unit.back(), 1, 0.06) << i;
   }
@@ -121,9 +121,9 @@ TEST(LoopCloserTest, TheLastKeyframeStaysWhereItIs) {
   const Drive drive = circle_drive(50, 5);
   LoopCloser closer(vocabulary(), settings());
   for (int i = 0; i < drive.size(); ++i) closer.add(drive.updates[i], drive.features[i], loop_test::camera());
-  const std::vector<CorrectedPose> before = closer.poses();
+  const std::vector<KeyframePose> before = closer.poses();
   closer.finish();
-  const std::vector<CorrectedPose> after = closer.poses();
+  const std::vector<KeyframePose> after = closer.poses();
   ASSERT_GT(accepted_loops(closer), 0);
   EXPECT_EQ(before.back().S_world_keyframe.matrix(), after.back().S_world_keyframe.matrix());
   EXPECT_NE(before.front().S_world_keyframe.matrix(), after.front().S_world_keyframe.matrix());

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/pinhole_projection.h"
 #include "mapping/inlier_spread.h"
-#include "mapping/pinhole_projection.h"
 
 namespace ldso {
 namespace {

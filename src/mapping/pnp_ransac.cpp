@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "geometry/pinhole_projection.h"
 #include "mapping/p3p.h"
-#include "mapping/pinhole_projection.h"
 
 namespace ldso {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "mapping/pinhole_projection.h"
+#include "geometry/pinhole_projection.h"
 
 namespace ldso {
 namespace {

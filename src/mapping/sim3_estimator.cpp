@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mapping/pinhole_projection.h"
+#include "geometry/pinhole_projection.h"
 #include "util/median.h"
 
 namespace ldso {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "mapping/pinhole_projection.h"
+#include "geometry/pinhole_projection.h"
 
 namespace ldso {
 namespace {

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/pinhole_projection.h"
 #include "ldso/calibration.h"
 #include "ldso/records.h"
 #include "mapping/feature_builder.h"
 #include "mapping/keyframe_map.h"
-#include "mapping/pinhole_projection.h"
 #include "place/test_descriptors.h"
 #include "place/vocabulary.h"
 

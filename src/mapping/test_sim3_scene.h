@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "mapping/pinhole_projection.h"
+#include "geometry/pinhole_projection.h"
 #include "mapping/sim3_residual.h"
 
 namespace ldso {

@@ -1,6 +1,6 @@
 #include "mapping/uncertain_point.h"
 
-#include "mapping/pinhole_projection.h"
+#include "geometry/pinhole_projection.h"
 
 namespace ldso {
 

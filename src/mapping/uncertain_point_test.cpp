@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "mapping/pinhole_projection.h"
+#include "geometry/pinhole_projection.h"
 
 namespace ldso {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ldso/error.h"
-#include "place/bytes.h"
+#include "place/vocabulary_reader.h"
 
 namespace ldso {
 namespace {
@@ -110,11 +110,11 @@ TextNode parse_text_node(NumberText& text, std::size_t nodes_so_far) {
 
 VocabularyNode parse_binary_node(VocabularyReader& reader, std::uint32_t node_count, std::uint32_t& id) {
   VocabularyNode node;
-  id = reader.number<std::uint32_t>();
-  node.parent = reader.number<std::uint32_t>();
-  node.weight = static_cast<float>(reader.float64());
-  const auto columns = reader.number<std::uint32_t>(), rows = reader.number<std::uint32_t>();
-  const auto type = reader.number<std::uint32_t>();
+  id = reader.get<std::uint32_t>();
+  node.parent = reader.get<std::uint32_t>();
+  node.weight = static_cast<float>(reader.get<double>());
+  const auto columns = reader.get<std::uint32_t>(), rows = reader.get<std::uint32_t>();
+  const auto type = reader.get<std::uint32_t>();
   if (id == 0 || id >= node_count || node.parent >= node_count) reader.fail("the file is damaged (number of a node)");
   if (columns != kDescriptorBytes || rows != 1 || type != 0) {
     throw Error(reader.name(), "its descriptors are not of 256 bits, or it is damaged",
@@ -131,11 +131,11 @@ void check_words(VocabularyReader& reader, const std::vector<VocabularyNode>& no
   for (std::size_t i = 1; i < nodes.size(); ++i) is_leaf[nodes[i].parent] = 0;
   std::size_t leaves = 0;
   for (const char leaf : is_leaf) leaves += leaf != 0;
-  const auto words = reader.number<std::uint32_t>();
+  const auto words = reader.get<std::uint32_t>();
   if (words != leaves) reader.fail("the file is damaged (number of words)");
   for (std::uint32_t i = 0; i < words; ++i) {
-    reader.number<std::uint32_t>();  // The word's number there; words are numbered anew.
-    const auto node = reader.number<std::uint32_t>();
+    reader.get<std::uint32_t>();  // The word's number there; words are numbered anew.
+    const auto node = reader.get<std::uint32_t>();
     if (node >= nodes.size() || is_leaf[node] != 1) reader.fail("the file is damaged (node of a word)");
     is_leaf[node] = 2;
   }
@@ -144,20 +144,20 @@ void check_words(VocabularyReader& reader, const std::vector<VocabularyNode>& no
 }  // namespace
 
 bool is_dbow3_binary(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= 8 && VocabularyReader(bytes, "").number<std::uint64_t>() == kDbow3Signature;
+  return bytes.size() >= 8 && VocabularyReader(bytes, "").get<std::uint64_t>() == kDbow3Signature;
 }
 
 Vocabulary parse_dbow3_binary(std::span<const std::uint8_t> bytes, const std::string& name) {
   VocabularyReader reader(bytes, name);
-  reader.number<std::uint64_t>();
-  if (reader.number<std::uint8_t>() != 0) {
+  reader.get<std::uint64_t>();
+  if (reader.get<std::uint8_t>() != 0) {
     throw Error(name, "is a compressed file of DBoW3, which cannot be read",
                 "save it again with DBoW3's `vocabulary.save(name, false)`");
   }
-  const auto node_count = reader.number<std::uint32_t>();
+  const auto node_count = reader.get<std::uint32_t>();
   DbowHeader header;
   for (std::int32_t* field : {&header.branching, &header.depth, &header.scoring, &header.weighting})
-    *field = static_cast<std::int32_t>(reader.number<std::uint32_t>());
+    *field = static_cast<std::int32_t>(reader.get<std::uint32_t>());
   if (node_count < 2) throw Error(name, "has no words", "take another vocabulary");
   if (reader.left() / kDbow3NodeSize < node_count - 1) reader.fail("the file is truncated");
   std::vector<VocabularyNode> nodes(node_count);

@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "ldso/error.h"
-#include "place/bytes.h"
 #include "place/dbow_vocabulary_file.h"
+#include "place/vocabulary_reader.h"
 
 namespace ldso {
 namespace {
@@ -44,30 +44,30 @@ void set_parents(std::span<const std::uint8_t> child_counts, VocabularyReader& r
 
 Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& name) {
   VocabularyReader reader(bytes, name);
-  reader.take(kMagic.size());
-  const auto version = reader.number<std::uint32_t>();
+  reader.get_bytes(kMagic.size());
+  const auto version = reader.get<std::uint32_t>();
   if (version != kVersion)
     throw Error(name, "is a vocabulary of format version " + std::to_string(version), "update ldso to read it");
-  const auto node_count = reader.number<std::uint32_t>();
-  const auto word_count = reader.number<std::uint32_t>();
-  const auto origin_size = reader.number<std::uint32_t>();
+  const auto node_count = reader.get<std::uint32_t>();
+  const auto word_count = reader.get<std::uint32_t>();
+  const auto origin_size = reader.get<std::uint32_t>();
   const std::uint64_t expected =
       std::uint64_t{origin_size} + std::uint64_t{node_count} * 33 - 32 + std::uint64_t{word_count} * 4 + kChecksumSize;
   if (node_count == 0 || reader.left() < expected) reader.fail("the file is truncated");
   if (reader.left() > expected) reader.fail("there is something behind its end");
   VocabularyReader checksum(bytes.last(kChecksumSize), name);
-  if (checksum.number<std::uint64_t>() != fnv1a(bytes.first(bytes.size() - kChecksumSize)))
+  if (checksum.get<std::uint64_t>() != fnv1a(bytes.first(bytes.size() - kChecksumSize)))
     reader.fail("the file is damaged (its checksum is wrong)");
 
-  const auto origin = reader.take(origin_size);
-  const auto child_counts = reader.take(node_count);
+  const auto origin = reader.get_bytes(origin_size);
+  const auto child_counts = reader.get_bytes(node_count);
   std::vector<VocabularyNode> nodes(node_count);
   set_parents(child_counts, reader, nodes);
   for (std::size_t i = 1; i < nodes.size(); ++i) nodes[i].descriptor = reader.descriptor();
   if (std::count(child_counts.begin(), child_counts.end(), 0) != static_cast<std::ptrdiff_t>(word_count))
     reader.fail("its words do not fit its nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (child_counts[i] == 0) nodes[i].weight = reader.float32();
+    if (child_counts[i] == 0) nodes[i].weight = reader.get<float>();
   }
   return Vocabulary(nodes, std::string(origin.begin(), origin.end()));
 }
@@ -101,21 +101,23 @@ Vocabulary read_vocabulary(const fs::path& path) {
 std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
   if (vocabulary.branching() > 255)
     throw Error("vocabulary", "a node has more than 255 children", "train it with a smaller branching");
-  std::vector<std::uint8_t> bytes(kMagic.begin(), kMagic.end());
-  append_number(kVersion, bytes);
-  append_number(static_cast<std::uint32_t>(vocabulary.node_count()), bytes);
-  append_number(static_cast<std::uint32_t>(vocabulary.word_count()), bytes);
-  append_number(static_cast<std::uint32_t>(vocabulary.origin().size()), bytes);
-  bytes.insert(bytes.end(), vocabulary.origin().begin(), vocabulary.origin().end());
+  ByteWriter out;
+  out.put_text(kMagic);
+  out.put(kVersion);
+  out.put(static_cast<std::uint32_t>(vocabulary.node_count()));
+  out.put(static_cast<std::uint32_t>(vocabulary.word_count()));
+  out.put(static_cast<std::uint32_t>(vocabulary.origin().size()));
+  out.put_text(vocabulary.origin());
   for (NodeId node = 0; node < vocabulary.node_count(); ++node) {
     const auto [begin, end] = vocabulary.children(node);
-    bytes.push_back(static_cast<std::uint8_t>(end - begin));
+    out.put(static_cast<std::uint8_t>(end - begin));
   }
-  for (NodeId node = 1; node < vocabulary.node_count(); ++node) append_descriptor(vocabulary.descriptor(node), bytes);
-  for (WordId word = 0; word < vocabulary.word_count(); ++word)
-    append_number(std::bit_cast<std::uint32_t>(vocabulary.weight(word)), bytes);
-  append_number(fnv1a(bytes), bytes);
-  return bytes;
+  for (NodeId node = 1; node < vocabulary.node_count(); ++node) {
+    for (const std::uint64_t word : vocabulary.descriptor(node).bits) out.put(word);
+  }
+  for (WordId word = 0; word < vocabulary.word_count(); ++word) out.put(vocabulary.weight(word));
+  out.put(fnv1a(out.bytes()));
+  return out.take();
 }
 
 void write_vocabulary(const fs::path& path, const Vocabulary& vocabulary) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/pinhole_projection.h"
 #include "odometry/window/finished_keyframe.h"
 
 namespace ldso {
@@ -25,13 +26,14 @@ class Projection {
 
   /// Nothing is added if the point is not in view.
   void add(ViewPixel pixel, std::vector<ViewPixel>& pixels) const {
-    const Eigen::Vector3d ray((pixel.u - camera_.cx) / camera_.fx, (pixel.v - camera_.cy) / camera_.fy, 1);
+    const Eigen::Vector3d ray = viewing_ray(camera_, {pixel.u, pixel.v});
     const Eigen::Vector3d p = R_ * ray + pixel.idepth * t_;  // Divided by the depth in the host.
     if (!(p.z() > 0)) return;
-    const double u = camera_.fx * p.x() / p.z() + camera_.cx, v = camera_.fy * p.y() / p.z() + camera_.cy;
-    if (!(u >= 0 && v >= 0 && u <= camera_.width - 1 && v <= camera_.height - 1)) return;
-    pixel.u = static_cast<float>(u);
-    pixel.v = static_cast<float>(v);
+    const Eigen::Vector2d seen = project(camera_, p);
+    const Eigen::Array2d last(camera_.width - 1, camera_.height - 1);
+    if (!((seen.array() >= 0).all() && (seen.array() <= last).all())) return;
+    pixel.u = static_cast<float>(seen.x());
+    pixel.v = static_cast<float>(seen.y());
     pixel.idepth = static_cast<float>(pixel.idepth / p.z());
     pixels.push_back(pixel);
   }

@@ -100,11 +100,10 @@ void LoopThread::tell() {
     event.accepted.back().matches.clear();
   }
   if (closer_->optimizations() > optimizations_told_) {
-    for (const CorrectedPose& pose : closer_->poses()) event.poses.push_back({pose.frame_id, pose.S_world_keyframe});
+    event.poses = closer_->poses();
     optimizations_told_ = closer_->optimizations();
   } else {
-    const CorrectedPose pose = closer_->newest_pose();
-    event.poses.push_back({pose.frame_id, pose.S_world_keyframe});
+    event.poses.push_back(closer_->newest_pose());
   }
   event.correction = closer_->correction();
   event.candidates = static_cast<int>(loops.size());

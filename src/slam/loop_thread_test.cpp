@@ -143,7 +143,7 @@ TEST_F(LoopThreadTest, GivesWhatLoopCloserGives) {
   ASSERT_EQ(poses.size(), keyframes_.size());
   ASSERT_EQ(expected_poses.size(), keyframes_.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    EXPECT_EQ(poses[i].frame_id, expected_poses[i].frame_id);
+    EXPECT_EQ(poses[i].keyframe_id, expected_poses[i].keyframe_id);
     EXPECT_EQ(poses[i].S_world_keyframe.matrix(), expected_poses[i].S_world_keyframe.matrix()) << i;
   }
   ASSERT_FALSE(closer.loops().empty());

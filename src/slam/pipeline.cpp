@@ -82,7 +82,7 @@ void Pipeline::close_loops() {
   const bool any = std::any_of(result_.loops.begin(), result_.loops.end(), [](const auto& l) { return l.accepted; });
   if (!any) return;
   std::map<std::int64_t, Sim3d> poses;
-  for (const CorrectedPose& pose : closer->poses()) poses[pose.frame_id] = pose.S_world_keyframe;
+  for (const KeyframePose& pose : closer->poses()) poses[pose.keyframe_id] = pose.S_world_keyframe;
   for (const KeyframeUpdate& keyframe : result_.keyframes) {
     const auto pose = poses.find(keyframe.frame_id);
     result_.corrected.push_back(pose != poses.end() ? pose->second : Sim3d(keyframe.T_world_camera));

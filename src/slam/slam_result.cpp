@@ -1,6 +1,7 @@
 #include <cstddef>
 #include <unordered_map>
 
+#include "geometry/pinhole_projection.h"
 #include "ldso/slam.h"
 
 namespace ldso {
@@ -58,8 +59,8 @@ std::vector<WorldPoint> SlamResult::points(Correction correction) const {
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     for (const MapPoint& point : keyframes[i].points) {
       const double depth = 1.0 / static_cast<double>(point.idepth);
-      const Eigen::Vector3d ray((point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy, 1.0);
-      const Eigen::Vector3d position = poses_of_keyframes[i] * Eigen::Vector3d(depth * ray);
+      const Eigen::Vector3d in_camera = depth * viewing_ray(camera, {point.u, point.v});
+      const Eigen::Vector3d position = poses_of_keyframes[i] * in_camera;
       if (!(point.idepth > 0) || !position.allFinite()) continue;
       points.push_back({position, point.idepth_stddev, point.intensity});
     }

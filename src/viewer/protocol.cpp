@@ -1,10 +1,15 @@
 #include "viewer/protocol.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "geometry/pinhole_projection.h"
 
 namespace ldso::protocol {
 namespace {
+
+static_assert(std::endian::native == std::endian::little, "arrays are written as they are, little-endian");
 
 constexpr std::size_t kHeaderBytes = 8;
 constexpr char kMagic[] = "LDSO";
@@ -39,6 +44,7 @@ class MessageWriter : public ByteWriter {
     put(S.scale());
   }
   void put_count(std::size_t count) { put(static_cast<std::uint32_t>(count)); }
+  /// As they lie in memory.
   template <class T>
   void put_all(const std::vector<T>& values) {
     put_bytes({reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)});
@@ -224,8 +230,7 @@ Keyframe to_keyframe(std::int64_t id, const SE3d& T_world_camera, std::span<cons
   keyframe.points.reserve(points.size());
   for (const MapPoint& point : points) {
     const double depth = 1.0 / static_cast<double>(point.idepth);
-    const Eigen::Vector3d ray((point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy, 1.0);
-    const Eigen::Vector3f position = (depth * ray).cast<float>();
+    const Eigen::Vector3f position = (depth * viewing_ray(camera, {point.u, point.v})).cast<float>();
     if (!(point.idepth > 0) || !position.allFinite()) continue;
     keyframe.points.push_back(position);
     keyframe.depth_stddev.push_back(point.idepth_stddev / point.idepth);

@@ -13,7 +13,7 @@
 #include "ldso/observer.h"
 #include "ldso/records.h"
 #include "ldso/sim3.h"
-#include "viewer/bytes.h"
+#include "util/bytes.h"
 
 namespace ldso::protocol {
 

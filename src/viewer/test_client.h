@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "viewer/bytes.h"
+#include "util/bytes.h"
 
 namespace ldso {
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/pinhole_projection.h"
 #include "ldso/error.h"
 #include "odometry/init/rotation_alignment.h"
 #include "odometry/selection/point_selector.h"
@@ -36,19 +37,15 @@ std::string text(const char* format, double a, double b = 0) {
   return buffer;
 }
 
-std::optional<Eigen::Vector2d> project(const PinholeIntrinsics& camera, const Eigen::Vector3d& q) {
+std::optional<Eigen::Vector2d> project_in_front(const PinholeIntrinsics& camera, const Eigen::Vector3d& q) {
   if (!(q.z() > kMinDepth)) return std::nullopt;
-  return Eigen::Vector2d(camera.fx * q.x() / q.z() + camera.cx, camera.fy * q.y() / q.z() + camera.cy);
-}
-
-Eigen::Vector3d ray_of(const PinholeIntrinsics& camera, const Eigen::Vector2d& pixel) {
-  return {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy, 1};
+  return project(camera, q);
 }
 
 /// How offsets around a pixel of the first frame map to the current one at constant inverse depth.
 Eigen::Matrix2d local_warp(const PinholeIntrinsics& camera, const SE3d& T, const Eigen::Vector2d& pixel,
                            double idepth) {
-  const Eigen::Vector3d q = T.rotation() * ray_of(camera, pixel) + idepth * T.translation();
+  const Eigen::Vector3d q = T.rotation() * viewing_ray(camera, pixel) + idepth * T.translation();
   if (!(q.z() > kMinDepth)) return Eigen::Matrix2d::Identity();
   Eigen::Matrix<double, 2, 3> J;
   J << camera.fx, 0, -camera.fx * q.x() / q.z(), 0, camera.fy, -camera.fy * q.y() / q.z();
@@ -108,7 +105,8 @@ void Initializer::set_reference(std::shared_ptr<const PreparedFrame> frame) {
   const auto selected = make_point_selector(selection_)->select(first_->pyramid, first_->id, settings_.points);
   for (const SelectedPixel& pixel : selected) {
     pixels_.emplace_back(pixel.x, pixel.y);
-    tracks_.push_back({ray_of(camera_, pixels_.back()), pixels_.back(), pixels_.back(), kUnknown, pixel.is_corner});
+    tracks_.push_back(
+        {viewing_ray(camera_, pixels_.back()), pixels_.back(), pixels_.back(), kUnknown, pixel.is_corner});
   }
   tracker_ = std::make_unique<PatchTracker>(*first_, pixels_, pool_);
   T_newest_first_ = SE3d();
@@ -178,12 +176,12 @@ PatchPrediction Initializer::predict(const Track& track, const SO3d& step, const
   const double idepth = std::isnan(track.idepth) ? 0 : track.idepth;
   prediction.warp = local_warp(camera_, T_predicted, track.pixel, idepth);
   prediction.starts.push_back(track.position);
-  if (const auto turned = project(camera_, step * ray_of(camera_, track.position))) {
+  if (const auto turned = project_in_front(camera_, step * viewing_ray(camera_, track.position))) {
     prediction.starts.push_back(*turned);
   }
   if (moving_ && !std::isnan(track.idepth)) {
     const Eigen::Vector3d q = T_predicted.rotation() * track.ray + idepth * T_predicted.translation();
-    if (const auto moved = project(camera_, q)) prediction.starts.push_back(*moved);
+    if (const auto moved = project_in_front(camera_, q)) prediction.starts.push_back(*moved);
   }
   return prediction;
 }
@@ -274,8 +272,8 @@ void Initializer::fit_motion_with_translation(const std::vector<TwoViewMatch>& p
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (result.motion.error[k] > kInlier) continue;
     const Eigen::Vector3d q0 = T.rotation() * pairs[k].ray;
-    const auto still = project(camera_, q0);
-    const auto moved = project(camera_, q0 + result.motion.idepth[k] * T.translation());
+    const auto still = project_in_front(camera_, q0);
+    const auto moved = project_in_front(camera_, q0 + result.motion.idepth[k] * T.translation());
     if (still && moved) parallax.push_back((*moved - *still).norm());
     idepths.push_back(result.motion.idepth[k]);
   }
