@@ -41,6 +41,7 @@ KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen
     if (point != point_at.end()) {
       feature.idepth = point->second->idepth;
       feature.idepth_stddev = point->second->idepth_stddev;
+      feature.patch = cut_patch(image, feature.feature.u, feature.feature.v);
     }
     result.features.push_back(feature);
   }

@@ -55,6 +55,9 @@ int KeyframeMap::add(const KeyframeUpdate& update, std::vector<MapFeature> featu
     pending_.emplace(constraint.keyframe_id, std::pair(index, constraint));
   }
   const auto [begin, end] = pending_.equal_range(update.frame_id);
+  // All that it will ever have: those before it and those that stayed when it left. Kept by the thousand: no spare
+  // room.
+  keyframes_[index].neighbours.reserve(std::distance(begin, end) + update.constraints.size());
   for (auto it = begin; it != end; ++it) {
     const auto& [other, constraint] = it->second;
     const Neighbour forward{index, constraint.T_this_other, constraint.covariance};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "mapping/chain_table.h"
@@ -59,10 +60,11 @@ void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector
     const StageTimer stage(times_, "loops/describe");
     features = build_features(image, corners, update.points, *vocabulary_);
   }
-  add(update, std::move(features), camera);
+  add(update, std::move(features), camera, &image);
 }
 
-void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera) {
+void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera,
+                     const Image<Texel>* image) {
   const int index = map_.add(update, std::move(features.features));
   place(index);
   std::vector<LoopCandidate> candidates;
@@ -74,7 +76,7 @@ void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, co
   if (index >= last_accepted_ + settings_.spacing) {
     const StageTimer stage(times_, "loops/verify");
     for (const LoopCandidate& candidate : candidates) {
-      if (verify(index, candidate, camera)) break;
+      if (verify(index, candidate, camera, image)) break;
     }
   }
   map_.forget_depthless(index);
@@ -92,8 +94,10 @@ void LoopCloser::place(int index) {
   corrected_.push_back(corrected_[*before] * Sim3d(map_[*before].T_world_camera).inverse() * odometry);
 }
 
-bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera) {
-  const LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_.verification);
+bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera,
+                        const Image<Texel>* image) {
+  LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_.verification);
+  if (v.accepted && image != nullptr) sharpen(candidate.index, camera, *image, v);
   records_.push_back(make_record(map_, index, candidate, v));
   if (!v.accepted) return false;
   LoopRecord& record = records_.back();
@@ -105,6 +109,18 @@ bool LoopCloser::verify(int index, const LoopCandidate& candidate, const Pinhole
   Hypothesis hypothesis{
       index, candidate.index, v.sim3.S_current_candidate, inverse_of(v.sim3.information), records_.size() - 1, false};
   return decide(std::move(hypothesis));
+}
+
+void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const Image<Texel>& image,
+                         LoopVerification& verification) const {
+  const std::optional<Sim3Estimate> sharp =
+      sharpen_loop(map_, candidate, camera, image, verification, settings_.sharpening);
+  if (!sharp) return;
+  const auto uncertainty = sim3_uncertainty(sharp->information);
+  if (!uncertainty) return;
+  verification.sim3.S_current_candidate = sharp->S_current_candidate;
+  verification.sim3.information = sharp->information;
+  verification.uncertainty = *uncertainty;
 }
 
 std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {

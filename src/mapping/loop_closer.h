@@ -17,6 +17,7 @@
 #include "mapping/feature_builder.h"
 #include "mapping/keyframe_map.h"
 #include "mapping/loop_detector.h"
+#include "mapping/loop_sharpener.h"
 #include "mapping/loop_verifier.h"
 #include "mapping/pose_graph.h"
 #include "place/vocabulary.h"
@@ -27,6 +28,7 @@ namespace ldso {
 struct LoopCloserSettings {
   LoopDetectorSettings detection;
   LoopVerifierSettings verification;
+  LoopSharpenerSettings sharpening;
   PoseGraphSettings graph;
   double max_drift = 0.15;           ///< Distance of a loop from the odometry, of the way between both, and
   double max_drift_deg = 30;         ///< its rotation, that drift can explain.
@@ -47,8 +49,9 @@ class LoopCloser {
   void add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
            const PinholeIntrinsics& camera);
 
-  /// The same with features that were built before.
-  void add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera);
+  /// The same with features that were built before. Without an image loops stay as sharp as their corners.
+  void add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera,
+           const Image<Texel>* image = nullptr);
 
   /// Takes all loops into account; the last keyframe stays where it is.
   void finish();
@@ -82,7 +85,10 @@ class LoopCloser {
   /// A first corrected pose: that of the keyframe before it, with the odometry's step.
   void place(int index);
   /// Whether the candidate stands as the place of the keyframe, for now or for good.
-  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera);
+  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera, const Image<Texel>* image);
+  /// The similarity from grey levels instead of corners, if they agree on one.
+  void sharpen(int candidate, const PinholeIntrinsics& camera, const Image<Texel>& image,
+               LoopVerification& verification) const;
   /// Why drift cannot explain it; empty if it can.
   std::string contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;
   /// Of what two hypotheses say of the newer one's similarity.

@@ -10,16 +10,11 @@
 
 #include "geometry/pinhole_projection.h"
 #include "mapping/inlier_spread.h"
+#include "mapping/local_map.h"
+#include "mapping/patch.h"
 
 namespace ldso {
 namespace {
-
-/// A corner with depth of the candidate or one of its neighbours, in the candidate's frame.
-struct LocalPoint {
-  int keyframe = 0;
-  int feature = 0;
-  UncertainPoint point;
-};
 
 /// What verification works on: the same for all its steps.
 struct Scene {
@@ -30,35 +25,6 @@ struct Scene {
   /// Features of the current keyframe, with the depths that its neighbours lend.
   std::vector<MapFeature> seen;
 };
-
-/// A corner with depth in its own keyframe's frame.
-UncertainPoint own_point(const Scene& scene, int keyframe, int feature) {
-  const MapFeature& f = scene.map[keyframe].features[feature];
-  // The host pixel of a direct method is exact: its depth belongs to that very pixel.
-  return back_project(scene.camera, {f.feature.u, f.feature.v}, 0.0, f.idepth, f.idepth_stddev);
-}
-
-/// The keyframe's corners with depth, moved by `T`.
-void add_points(const Scene& scene, int keyframe, const SE3d& T, std::vector<LocalPoint>& points) {
-  const std::vector<MapFeature>& features = scene.map[keyframe].features;
-  for (int i = 0; i < static_cast<int>(features.size()); ++i) {
-    if (features[i].idepth > 0) points.push_back({keyframe, i, Sim3d(T) * own_point(scene, keyframe, i)});
-  }
-}
-
-void add_points_of_neighbours(const Scene& scene, int keyframe, std::vector<LocalPoint>& points) {
-  for (const Neighbour& neighbour : scene.map[keyframe].neighbours) {
-    add_points(scene, neighbour.index, neighbour.T_this_other, points);
-  }
-}
-
-/// Points of the candidate first, then those of its neighbours, in the candidate's frame.
-std::vector<LocalPoint> local_map(const Scene& scene) {
-  std::vector<LocalPoint> points;
-  add_points(scene, scene.candidate, SE3d(), points);
-  add_points_of_neighbours(scene, scene.candidate, points);
-  return points;
-}
 
 Sim3Correspondence correspondence(const Scene& scene, const UncertainPoint& point, int feature) {
   const MapFeature& seen = scene.seen[feature];
@@ -83,7 +49,7 @@ std::vector<LoopMatch> match_blindly(const Scene& scene) {
       const bool has_depth = scene.map[keyframe].features[m.a].idepth > 0;
       if (!has_depth || m.distance >= best[m.b]) continue;
       best[m.b] = m.distance;
-      of[m.b] = {keyframe, m.a, m.b};
+      of[m.b] = {.keyframe = keyframe, .feature = m.a, .current = m.b};
     }
     return static_cast<int>(found.size());
   };
@@ -100,7 +66,7 @@ std::vector<LoopMatch> match_blindly(const Scene& scene) {
 std::vector<Sim3Correspondence> correspondences_of(const Scene& scene, const std::vector<LoopMatch>& matches) {
   std::vector<Sim3Correspondence> result;
   for (const LoopMatch& match : matches) {
-    const UncertainPoint own = own_point(scene, match.keyframe, match.feature);
+    const UncertainPoint own = own_point(scene.map, scene.camera, match.keyframe, match.feature);
     const auto& neighbours = scene.map[scene.candidate].neighbours;
     const auto host = std::find_if(neighbours.begin(), neighbours.end(),
                                    [&](const Neighbour& neighbour) { return neighbour.index == match.keyframe; });
@@ -161,7 +127,7 @@ Predictions predict(const Scene& scene, const std::vector<LocalPoint>& points, c
 /// already: these lend them their depth.
 void borrow_depths(Scene& scene) {
   std::vector<LocalPoint> points;
-  add_points_of_neighbours(scene, scene.current, points);
+  add_points_of_neighbours(scene.map, scene.camera, scene.current, points);
   const Predictions predictions = predict(scene, points, Sim3d(), scene.settings.own_radius_px);
   for (const FeatureMatch& match : match_by_projection(predictions.points, scene.seen)) {
     MapFeature& feature = scene.seen[match.b];
@@ -191,7 +157,9 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
   for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen)) {
     const LocalPoint& point = points[predictions.index[m.a]];
     const Eigen::Vector2d pixel = project(scene.camera, point.point.mean);
-    result.matches.push_back({point.keyframe, point.feature, m.b, false, pixel.cast<float>()});
+    const MapFeature& seen = scene.seen[m.b];
+    result.matches.push_back({point.keyframe, point.feature, m.b, false, pixel.cast<float>(),
+                              Eigen::Vector2f(seen.feature.u, seen.feature.v), seen.idepth, seen.idepth_stddev});
     correspondences.push_back(correspondence(scene, point.point, m.b));
   }
   result.sim3 = estimate_sim3(correspondences, scene.camera, S, settings);
@@ -304,7 +272,7 @@ LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate,
     return result;
   }
   result.sim3.S_current_candidate = *initial;
-  const std::vector<LocalPoint> points = local_map(scene);
+  const std::vector<LocalPoint> points = local_map(map, camera, candidate);
   const std::array<std::pair<double, Sim3Settings>, 2> steps = {
       {{settings.search_radius_px, rough(settings.sim3)}, {settings.final_radius_px, settings.sim3}}};
   for (const auto& [radius, sim3] : steps) {

@@ -43,6 +43,8 @@ struct LoopMatch {
   int current = 0;   ///< Feature of the current keyframe.
   bool inlier = false;
   Eigen::Vector2f candidate_pixel = Eigen::Vector2f::Zero();  ///< Where the candidate sees the point.
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();            ///< Of the current feature.
+  float idepth = 0, idepth_stddev = 0;  ///< Of the current feature, its own or a neighbour's; 0: unknown.
 };
 
 struct LoopVerification {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "mapping/patch.h"
 #include "place/feature.h"
 
 namespace ldso {
@@ -13,6 +14,7 @@ struct MapFeature {
   float idepth = 0;                       ///< Inverse depth in its own keyframe [1 / map unit]; 0: unknown.
   float idepth_stddev = 0;  ///< Standard deviation of the inverse depth; read only where the depth is known.
   std::uint32_t node = 0;   ///< Vocabulary node of the descriptor at the level of guided matching.
+  Patch patch;              ///< Its surroundings, if it has depth.
 };
 
 }  // namespace ldso

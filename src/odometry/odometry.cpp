@@ -96,9 +96,13 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
 void Odometry::track_waiting(std::vector<FrameRecord>& records) {
   const StageTimer timer(times_, "track_waiting");
   const Keyframe& first = *window_.keyframes.front();
-  // Backwards from the newest keyframe, whose depths are the reference: each frame lies near the one after it.
+  // Backwards from the newest keyframe, whose depths are the reference: each frame lies near the one after it, or where
+  // an even motion from the first keyframe on puts it.
+  const Keyframe& last = newest();
+  const SE3d::Tangent motion = (first.state.T_c_w() * last.state.T_c_w().inverse()).log();
+  const auto steps = static_cast<double>(std::max<std::int64_t>(1, last.id() - first.id()));
   SE3d T_frame_ref;
-  Brightness brightness = newest().state.brightness();
+  Brightness brightness = last.state.brightness();
   while (!waiting_.empty()) {
     const std::shared_ptr<const PreparedFrame> frame = waiting_.back();
     waiting_.pop_back();
@@ -112,19 +116,29 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
       records.push_back(record);
       continue;
     }
-    const AlignmentResult result = tracker_.align(*frame, T_frame_ref, brightness, brightness_prior(*frame), {});
-    if (!result.good || result.rmse() > settings_.tracking.lost_rmse ||
-        result.in_view < settings_.tracking.least_in_view)
-      continue;
+    const double share = static_cast<double>(last.id() - frame->id) / steps;
+    const AlignmentResult result = align_from({T_frame_ref, SE3d::exp(share * motion)}, *frame, brightness);
+    if (!result.good || result.in_view < settings_.tracking.least_in_view) continue;
     T_frame_ref = result.T_new_ref;
     brightness = result.brightness;
-    record.keyframe_id = newest().id();
+    record.keyframe_id = last.id();
     record.T_keyframe_frame = T_frame_ref.inverse();
     record.residual_rmse = static_cast<float>(result.rmse());
     record.brightness_a = static_cast<float>(brightness.a);
     record.brightness_b = static_cast<float>(brightness.b);
     records.push_back(record);
   }
+}
+
+AlignmentResult Odometry::align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                                     const Brightness& brightness) {
+  AlignmentResult best;
+  for (const SE3d& start : starts) {
+    const AlignmentResult result = tracker_.align(frame, start, brightness, brightness_prior(frame), {});
+    if (!result.good || !(result.rmse() <= settings_.tracking.lost_rmse)) continue;
+    if (!best.good || result.rmse() < best.rmse()) best = result;
+  }
+  return best;
 }
 
 void Odometry::start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first) {

@@ -50,6 +50,8 @@ class Odometry {
   void initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   void start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first);
   void track_waiting(std::vector<FrameRecord>& records);
+  /// The best alignment with the newest keyframe of those that begin at `starts`; not good if none is.
+  AlignmentResult align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame, const Brightness& brightness);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   AlignmentResult align(const PreparedFrame& frame);
   BrightnessPrior brightness_prior(const PreparedFrame& frame) const;
