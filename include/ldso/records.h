@@ -74,6 +74,7 @@ struct LoopRecord {
   int inliers_with_depth = 0;     ///< Of those, with a depth on both sides.
   int depth_inliers = 0;          ///< Of those, with a depth in the later keyframe that fits.
   double covered_cells = 0;       ///< Share of the image's cells with inliers.
+  int patch_inliers = 0;          ///< Points whose grey levels agree on the similarity; 0: it is from corners alone.
   Sim3d S_keyframe_candidate;     ///< Maps points of the candidate to the keyframe; the identity if it got not so far.
   double translation_stddev = 0;  ///< [map units]
   double rotation_stddev = 0;     ///< [rad]
@@ -81,6 +82,12 @@ struct LoopRecord {
   double drift_chi2 = 0;                 ///< Distance from the odometry, squared, in its standard deviations.
   double graph_weight = 1;               ///< What the pose graph left it of its pull, 0..1.
   std::vector<LoopMatchPixels> matches;  ///< Inliers of an accepted loop.
+};
+
+/// By how much variances are larger than the estimates say, as the loops show it; each at least 1.
+struct VarianceFactors {
+  Eigen::Vector3d odometry = Eigen::Vector3d::Ones();  ///< Of translation, rotation, log scale.
+  double loops = 1;
 };
 
 /// A keyframe's pose after loop closing.

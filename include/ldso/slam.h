@@ -54,9 +54,10 @@ struct SlamResult {
   std::vector<KeyframeUpdate> keyframes;
   /// Poses of `keyframes` after loop closing, as similarities, for their own units differ; empty without loops.
   std::vector<Sim3d> corrected;
-  std::vector<LoopRecord> loops;       ///< All pairs of keyframes that looked alike, accepted or refused.
-  double loop_bytes_per_keyframe = 0;  ///< What loop closing kept in memory for a keyframe, on average.
-  PinholeIntrinsics camera;            ///< Of the rectified images, as estimated: the points' pixels are its own.
+  std::vector<LoopRecord> loops;          ///< All pairs of keyframes that looked alike, accepted or refused.
+  VarianceFactors loop_variance_factors;  ///< Learned from the loops.
+  double loop_bytes_per_keyframe = 0;     ///< What loop closing kept in memory for a keyframe, on average.
+  PinholeIntrinsics camera;               ///< Of the rectified images, as estimated: the points' pixels are its own.
   /// Frames with which a map was there: that of the first map, then one a restart. Frames before them that waited for
   /// the map may have got their poses afterwards.
   std::vector<std::int64_t> initializations;

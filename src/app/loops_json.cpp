@@ -26,6 +26,7 @@ Json loop_json(const LoopRecord& loop) {
   json["inliers_with_depth"] = loop.inliers_with_depth;
   json["depth_inliers"] = loop.depth_inliers;
   json["covered_cells"] = loop.covered_cells;
+  json["patch_inliers"] = loop.patch_inliers;
   if (loop.inliers > 0) json["S_keyframe_candidate"] = similarity_json(loop.S_keyframe_candidate);
   json["translation_stddev"] = loop.translation_stddev;
   json["rotation_stddev_rad"] = loop.rotation_stddev;

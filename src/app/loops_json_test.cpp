@@ -22,6 +22,7 @@ LoopRecord accepted_loop() {
   loop.inliers = 140;
   loop.depth_inliers = 90;
   loop.covered_cells = 0.75;
+  loop.patch_inliers = 400;
   loop.S_keyframe_candidate = Sim3d(SO3d::exp({0.1, -0.2, 0.3}), {1, -2, 3}, 1.25);
   loop.translation_stddev = 0.01;
   loop.rotation_stddev = 0.002;
@@ -49,7 +50,8 @@ TEST(LoopsJson, HoldsEveryFigureOfAnAcceptedLoop) {
   const Json& loop = json["accepted"][0];
   const Json expected = Json::parse(R"({"keyframe": 912, "candidate": 31, "accepted": true, "score": 0.125,
       "descriptor_matches": 80, "pnp_inliers": 60, "points_in_view": 210, "points_seen": 150, "inliers": 140,
-      "depth_inliers": 90, "covered_cells": 0.75, "translation_stddev": 0.01, "rotation_stddev_rad": 0.002,
+      "depth_inliers": 90, "covered_cells": 0.75, "patch_inliers": 400,
+      "translation_stddev": 0.01, "rotation_stddev_rad": 0.002,
       "log_scale_stddev": 0.003, "drift_chi2": 12.5, "graph_weight": 0.875})");
   for (const auto& [name, value] : expected.items()) {
     ASSERT_TRUE(loop.contains(name)) << name;

@@ -105,6 +105,13 @@ Json counts_json(const RunSummary& summary) {
           {"loop_bytes_per_keyframe", std::lround(result.loop_bytes_per_keyframe)}};
 }
 
+Json variance_factors_json(const VarianceFactors& factors) {
+  return {{"odometry_translation", factors.odometry[0]},
+          {"odometry_rotation", factors.odometry[1]},
+          {"odometry_log_scale", factors.odometry[2]},
+          {"loops", factors.loops}};
+}
+
 Json timing_json(const SequenceRun& run) {
   Json stages = Json::object();
   for (const auto& [name, stage] : run.result.stage_times) {
@@ -235,7 +242,10 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["untracked"] = untracked_json(summary);
   json["warnings"] = summary.warnings;
   json["evaluation"] = evaluation_json(summary.evaluation);
-  if (summary.is_corrected()) json["evaluation_odometry"] = evaluation_json(summary.odometry_evaluation);
+  if (summary.is_corrected()) {
+    json["loop_variance_factors"] = variance_factors_json(summary.run.result.loop_variance_factors);
+    json["evaluation_odometry"] = evaluation_json(summary.odometry_evaluation);
+  }
   return json;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <span>
 
+#include "ldso/records.h"
 #include "ldso/sim3.h"
 #include "mapping/keyframe_map.h"
 #include "mapping/matrix7d.h"
@@ -26,12 +27,6 @@ struct LoopDiscrepancy {
 /// `covariance`: of x in S_true = exp(x) * S_current_candidate; `chain` leads from the current keyframe to the
 /// candidate.
 LoopDiscrepancy discrepancy(const Sim3d& S_current_candidate, const Matrix7d& covariance, const OdometryChain& chain);
-
-/// By how much variances are larger than what is said of them, each at least 1.
-struct VarianceFactors {
-  Eigen::Vector3d odometry = Eigen::Vector3d::Ones();  ///< Of translation, rotation, log scale.
-  double loops = 1;
-};
 
 /// Squared length of the discrepancy in its standard deviations; about 7 where the variances are right.
 double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactors& factors);

@@ -37,6 +37,7 @@ LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& c
   record.inliers_with_depth = v.num_with_depth;
   record.depth_inliers = v.sim3.num_depth_inliers;
   record.covered_cells = v.covered_cells;
+  record.patch_inliers = v.num_patch_inliers;
   record.S_keyframe_candidate = v.sim3.S_current_candidate;
   record.translation_stddev = v.uncertainty.translation;
   record.rotation_stddev = v.uncertainty.rotation_rad;
@@ -121,6 +122,7 @@ void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const I
   verification.sim3.S_current_candidate = sharp->S_current_candidate;
   verification.sim3.information = sharp->information;
   verification.uncertainty = *uncertainty;
+  verification.num_patch_inliers = sharp->num_inliers;
 }
 
 std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {

@@ -83,6 +83,11 @@ std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidat
                                             const Image<Texel>& image, const LoopVerification& loop,
                                             const LoopSharpenerSettings& settings) {
   const MatchOfPoint matches = matches_with_depth(loop);
+  const auto cell = [&](const Eigen::Vector2d& pixel) {
+    const Eigen::Array2d place = pixel.array() / Eigen::Array2d(camera.width, camera.height);
+    const Eigen::Array2i c = (place * settings.cells).cast<int>().max(0).min(settings.cells - 1);
+    return c.y() * settings.cells + c.x();
+  };
   std::vector<Sim3Correspondence> found;
   for (const LocalPoint& point : local_map(map, camera, candidate)) {
     const MapFeature& feature = map[point.keyframe].features[point.feature];
@@ -91,6 +96,7 @@ std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidat
     if (!c) continue;
     const auto match = matches.find({point.keyframe, point.feature});
     if (match != matches.end()) lend_depth(*match->second, settings.max_depth_shift_px, *c);
+    c->group = cell(c->pixel);
     found.push_back(*c);
   }
   return found;

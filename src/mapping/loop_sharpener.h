@@ -21,6 +21,7 @@ struct LoopSharpenerSettings {
   double least_sigma_px = 0.05;    ///< Standard deviation of an aligned patch's place at the best.
   double max_sigma_px = 0.5;       ///< Less certain places are left out.
   double max_depth_shift_px = 2;   ///< Of a corner from the place where its point was found, that may lend its depth.
+  int cells = 8;  ///< Of the image, in each direction: what is found in one may share an error of the local map.
   int min_inliers = 20;
   double min_inlier_share = 0.4;  ///< Of the patches that were found.
   PatchAlignmentSettings alignment;

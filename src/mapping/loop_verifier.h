@@ -56,6 +56,7 @@ struct LoopVerification {
   int num_visible = 0;     ///< Own points of the candidate that should be in view.
   int num_seen = 0;        ///< Those of them where a corner was found.
   double covered_cells = 0;
+  int num_patch_inliers = 0;  ///< Of a sharpened loop.
   std::vector<LoopMatch> matches;
   Sim3Estimate sim3;  ///< S_current_candidate.
   Sim3Uncertainty uncertainty;

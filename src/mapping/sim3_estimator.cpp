@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "geometry/pinhole_projection.h"
 #include "util/median.h"
@@ -88,6 +89,20 @@ class Sim3Problem {
       }
     }
     return equations;
+  }
+
+  /// Gradients of the cost at S, summed over the matches of each group.
+  std::map<int, Vector7d> group_gradients(const Sim3d& S, std::span<const Weights> weights) const {
+    std::map<int, Vector7d> gradients;
+    for (std::size_t i = 0; i < size(); ++i) {
+      Sim3Term term;
+      if (matches_[i].group < 0 || weights[i].pixel <= 0) continue;
+      if (!sim3_term(matches_[i], points_[i], camera_, S, fuses_depth(weights[i], kInfinity), term)) continue;
+      NormalEquations of_match;
+      add(term, weights[i], kInfinity, of_match);
+      gradients.try_emplace(matches_[i].group, Vector7d::Zero()).first->second += of_match.b;
+    }
+    return gradients;
   }
 
  private:
@@ -287,13 +302,23 @@ void report_errors(std::span<const Sim3Correspondence> matches, const PinholeInt
   estimate.log_depth_rmse = std::sqrt(depth_sum / std::max(estimate.num_depth_inliers, 1));
 }
 
+/// Variance of what groups of matches sum up to over that of independent matches (the design effect of cluster samples:
+/// Kish, Survey Sampling, 1965): for the sum b of a group b^T H^-1 b is expected to be the group's share of seven.
+double shared_variance_factor(const Sim3Problem& problem, const InlierSet& set, const Sim3d& S, const Matrix7d& H) {
+  const Eigen::LDLT<Matrix7d> solver(H);
+  double sum = 0;
+  for (const auto& [group, b] : problem.group_gradients(S, set.weights)) sum += b.dot(solver.solve(b));
+  return std::isfinite(sum) ? std::max(1.0, sum / 7) : 1;
+}
+
 /// Information of the inliers; false if it leaves the pose undetermined.
 bool report_information(const Sim3Problem& problem, const InlierSet& set, Sim3Estimate& estimate) {
   NormalEquations equations = problem.linearize(estimate.S_current_candidate, set.weights, kInfinity);
   if (!estimate.scale_determined) fix_scale(equations);
   if (!is_well_determined(equations.H)) return false;
+  estimate.shared_variance_factor = shared_variance_factor(problem, set, estimate.S_current_candidate, equations.H);
   if (!estimate.scale_determined) equations.H(6, 6) = 0;
-  estimate.information = 0.5 * (equations.H + equations.H.transpose());
+  estimate.information = 0.5 / estimate.shared_variance_factor * (equations.H + equations.H.transpose());
   return true;
 }
 

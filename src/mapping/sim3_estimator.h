@@ -46,13 +46,16 @@ struct Sim3Estimate {
   bool scale_determined = false;
   /// Inverse covariance of x in S_true = exp(x) * S, x = [rho, omega, sigma] in the current camera's frame and unit.
   /// The noise behind it is the given one or that which the residuals show, whichever is larger. It treats the
-  /// matches as independent: an error that the candidate's points share (of its local map) comes on top.
+  /// matches as independent but for what their groups show: an error that all of them share comes on top.
   Matrix7d information = Matrix7d::Zero();
   double pixel_variance_factor = 1;  ///< Of the reprojection errors over what was expected of them, at least 1.
   double depth_variance_factor = 1;  ///< Of the inverse depths, likewise.
-  double reprojection_rmse_px = 0;   ///< Of the inliers, with the candidate's points at their mean.
-  double log_depth_rmse = 0;         ///< Of the depth inliers: log of predicted over measured depth.
-  int iterations = 0;                ///< Steps of Levenberg-Marquardt in total.
+  /// By how much the groups' summed errors exceed what independent matches would sum up to, at least 1. The information
+  /// is divided by it.
+  double shared_variance_factor = 1;
+  double reprojection_rmse_px = 0;  ///< Of the inliers, with the candidate's points at their mean.
+  double log_depth_rmse = 0;        ///< Of the depth inliers: log of predicted over measured depth.
+  int iterations = 0;               ///< Steps of Levenberg-Marquardt in total.
 };
 
 /// The similarity that the matches agree on, found from `initial`. Never throws; matches that are not usable (not

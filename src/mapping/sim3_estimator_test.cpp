@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
 
 #include "mapping/test_sim3_scene.h"
 
@@ -67,6 +69,45 @@ TEST(Sim3EstimatorTest, RecoversTheSimilarityAmongOutliers) {
     EXPECT_LE(missed, 7) << seed;
     EXPECT_NEAR(result.reprojection_rmse_px, 5, 2) << seed;  // the candidates' uncertain depths add to the pixels' 1.4
   }
+}
+
+TEST(Sim3EstimatorTest, ErrorsThatGroupsShareWidenTheCovariance) {
+  constexpr int kCells = 6, kRuns = 40;
+  double independent = 0, shared = 0, blind = 0;
+  for (unsigned seed = 0; seed < kRuns; ++seed) {
+    Sim3SceneSettings settings;
+    settings.count = 400;
+    settings.relative_depth_sigma = 0.01;
+    Sim3Scene scene = make_sim3_scene(seed, settings);
+    const auto set_groups = [&](bool known) {
+      for (Sim3Correspondence& c : scene.matches) {
+        const Eigen::Array2i cell = (c.pixel.array() / Eigen::Array2d(640, 480) * kCells).cast<int>();
+        c.group = known ? cell.y() * kCells + cell.x() : -1;
+      }
+    };
+    const auto chi2 = [&] {
+      const Sim3Estimate result = estimate(scene);
+      EXPECT_EQ(result.status, Sim3Status::kOk);
+      const Vector7d x = error_of(result, scene);
+      return x.dot(result.information * x) / kRuns;
+    };
+    set_groups(true);
+    independent += chi2();
+    std::mt19937_64 random(seed + 1000);
+    std::normal_distribution<double> normal(0, 1);
+    std::map<int, Eigen::Vector2d> offsets;
+    for (Sim3Correspondence& c : scene.matches) {
+      if (!offsets.count(c.group)) offsets[c.group] = {normal(random), normal(random)};
+    }
+    for (Sim3Correspondence& c : scene.matches) c.pixel += offsets[c.group];
+    shared += chi2();
+    set_groups(false);
+    blind += chi2();
+  }
+  // Seven where the covariance is right.
+  EXPECT_LT(independent, 10);
+  EXPECT_GT(blind, 20);
+  EXPECT_LT(shared, 0.6 * blind);
 }
 
 TEST(Sim3EstimatorTest, WrongDepthsLeaveThePixelsInUse) {

@@ -35,6 +35,7 @@ struct Sim3Correspondence {
   double sigma_px = 1;
   double idepth = 0;         ///< Inverse depth at the pixel, in the current keyframe's unit; 0: unknown.
   double idepth_stddev = 0;  ///< Its standard deviation; read only where the depth is known, then positive.
+  int group = -1;            ///< Matches of one group, from 0 on, may share an error; -1: it shares none.
 };
 
 using Sim3Jacobian = Eigen::Matrix<double, 3, 7>;

@@ -78,6 +78,7 @@ void Pipeline::close_loops() {
   if (closer == nullptr) return;
   add_times(closer->times(), result_.stage_times);
   result_.loops = closer->loops();
+  result_.loop_variance_factors = closer->variance_factors();
   result_.loop_bytes_per_keyframe = closer->bytes_per_keyframe();
   const bool any = std::any_of(result_.loops.begin(), result_.loops.end(), [](const auto& l) { return l.accepted; });
   if (!any) return;
