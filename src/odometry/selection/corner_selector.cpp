@@ -11,8 +11,9 @@
 namespace ldso {
 namespace {
 
-// "Keeping the number of corners small" [LDSO paper III-B]: at most one in this many points.
-constexpr int kPointsPerCorner = 3;
+// "Keeping the number of corners small" [LDSO paper III-B]: at most one in this many points. Over 26 sequences 5 gives
+// 0.92 of the odometry's error at 3 (geometric mean); 8 is no better, and loops lack points.
+constexpr int kPointsPerCorner = 5;
 // Gradient pixels keep this distance from the corners [px]: nearer ones share most of the residual pattern. Wider
 // discs would cover most of the texture where there is little of it.
 constexpr int kFillDistance = 3;
