@@ -14,6 +14,7 @@
 #include "app/live_truth.h"
 #include "app/loop_pictures.h"
 #include "app/progress_display.h"
+#include "app/report/report_page.h"
 #include "app/run_as_job.h"
 #include "app/run_files.h"
 #include "app/run_report.h"
@@ -35,7 +36,7 @@ struct RunArguments {
   std::optional<std::string> view;
   std::vector<std::string> set;
   bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false, view_exit = false,
-       view_paused = false;
+       view_paused = false, no_report = false;
 };
 
 void add_options(CLI::App& command, RunArguments& a) {
@@ -67,6 +68,7 @@ void add_options(CLI::App& command, RunArguments& a) {
       ->needs(view);
   command.add_flag("--view-paused", a.view_paused, "Wait at the first frame until the page says continue or step")
       ->needs(view);
+  command.add_flag("--no-report", a.no_report, "Do not write report.html");
   command.add_flag("--quiet", a.quiet, "Print warnings only");
   command.add_flag(
       "--job", a.job,
@@ -140,6 +142,7 @@ void run_with_display(const Dataset& dataset, const RunArguments& a, LiveRun& li
   if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
   live.finish();
   summary.recording = live.recording();
+  summary.frame_costs = live.frame_costs();
   summary.warnings = warnings.warnings();
 }
 
@@ -175,6 +178,7 @@ int run(const RunArguments& a) {
   summary.evaluation = evaluate_run(summary.trajectory, *dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, *dataset);
   draw_loops(a, *dataset, summary);
+  if (!a.no_report) write_report(a.out, summary, *dataset);
   write_run_files(a.out, summary, *dataset, a.kitti);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";

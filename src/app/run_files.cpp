@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/loops_json.h"
+#include "app/report/report_page.h"
 #include "evaluation/trajectory_picture.h"
 #include "io/calibration_file.h"
 #include "io/ply_file.h"
@@ -72,7 +73,7 @@ void prepare_output_folder(const fs::path& folder) {
   const bool writable = !file.fail();
   fs::remove(probe, error);
   if (!writable) throw Error(folder.string(), "the output folder cannot be written", kRemedy);
-  fs::remove(folder / kRunJson);
+  for (const char* name : {kRunJson, kReportName}) fs::remove(folder / name);
 }
 
 void write_run_files(const fs::path& folder, const RunSummary& summary, const Dataset& dataset, bool kitti) {

@@ -61,6 +61,7 @@ class LiveMap {
   std::int64_t newest_frame() const { return newest_frame_; }
   const Sim3d& correction() const { return correction_; }
   std::size_t frames() const { return frames_.size(); }
+  const std::vector<FrameEvent>& frame_events() const { return frames_; }
   std::uint64_t pose_revision() const { return pose_revision_; }
 
  private:

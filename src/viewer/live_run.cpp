@@ -59,19 +59,36 @@ void LiveRun::finish() {
   if (!server_) feed_->fetch(map_);
 }
 
-Bytes LiveRun::recording() {
-  Bytes recording;
-  const auto take = [&](LiveMap& map) {
+void LiveRun::with_map(const std::function<void(LiveMap&)>& function) {
+  const auto use = [&](LiveMap& map) {
     feed_->fetch(map);
-    update_alignment(map);
-    recording = map.snapshot();
+    function(map);
   };
   if (server_) {
-    server_->call(take);
+    server_->call(use);
   } else {
-    take(map_);
+    use(map_);
   }
+}
+
+Bytes LiveRun::recording() {
+  Bytes recording;
+  with_map([&](LiveMap& map) {
+    update_alignment(map);
+    recording = map.snapshot();
+  });
   return recording;
+}
+
+std::vector<FrameCost> LiveRun::frame_costs() {
+  std::vector<FrameCost> costs;
+  with_map([&](const LiveMap& map) {
+    for (const FrameEvent& event : map.frame_events()) {
+      if (!event.is_late)
+        costs.push_back({event.frame.frame_id, event.frame_ms, event.points, event.exposure_ms});
+    }
+  });
+  return costs;
 }
 
 void LiveRun::tick(LiveMap& map, std::size_t viewers) {

@@ -20,6 +20,14 @@
 
 namespace ldso {
 
+/// What a frame cost.
+struct FrameCost {
+  std::int64_t frame_id = 0;
+  double frame_ms = 0;     ///< Time that the odometry took for it.
+  int points = 0;          ///< Active points of the window afterwards.
+  double exposure_ms = 0;  ///< 0 if unknown.
+};
+
 /// Where the ground truth lies in the map of the frames so far; nothing if that cannot be told (yet).
 using TruthAligner = std::function<std::optional<protocol::Alignment>(const Trajectory& estimate)>;
 
@@ -54,8 +62,12 @@ class LiveRun {
   double paused_seconds() const { return control_.paused_seconds(); }
   /// All of the run so far, to be kept as a file.
   Bytes recording();
+  /// Of all frames so far, in the order in which they came; frames that were skipped cost nothing.
+  std::vector<FrameCost> frame_costs();
 
  private:
+  /// Calls it with a map that is up to date, where nobody else uses it.
+  void with_map(const std::function<void(LiveMap&)>& function);
   void tick(LiveMap& map, std::size_t viewers);
   void show(const LiveView& view, LiveMap& map);
   void update_status(LiveMap& map, std::size_t viewers);

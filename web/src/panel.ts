@@ -2,7 +2,7 @@
 
 import type { ImageView } from './image_view';
 import type { Changes, MapModel } from './map_model';
-import type { Follow, MapView, MapViewSettings } from './map_view';
+import type { Follow, MapView, Switch } from './map_view';
 import { COLOR_MODES } from './point_cloud';
 import { Command, RunState, Tracking } from './protocol';
 import type { Timeline } from './timeline';
@@ -14,8 +14,6 @@ interface Parts {
   timeline: Timeline;
   send: (command: Command) => void;
 }
-
-type Switch = { [K in keyof MapViewSettings]: MapViewSettings[K] extends boolean ? K : never }[keyof MapViewSettings];
 
 /** Name, what the key does, color of its mark. */
 const SWITCHES: { setting: Switch; label: string; key: string; mark?: string }[] = [
