@@ -16,12 +16,13 @@ namespace ldso {
 namespace {
 
 constexpr double kWidth = 900, kLeft = 90, kRight = 25;
-constexpr double kStripHeight = 84, kStripGap = 20, kAxisRoom = 48, kTop = 10;
+constexpr double kStripHeight = 96, kStripGap = 20, kAxisRoom = 48, kTop = 10;
 constexpr double kHistogramHeight = 220;
 constexpr int kBins = 48;
 constexpr std::size_t kColumns = 800;  ///< Of a strip, for which more than two values are too many.
 constexpr const char* kFrameColour = "#56B4E9";
-constexpr const char* kKeyframeColour = "#0072B2";
+constexpr const char* kKeyframeColour = "#E69F00";
+constexpr const char* kIntervalColour = "#CC79A7";
 constexpr const char* kLostColour = "#D55E00";
 constexpr const char* kLoopColour = "#009E73";
 
@@ -71,7 +72,7 @@ Range range_of(const Strip& strip) {
 
 std::vector<Strip> strips_of(const RunSummary& summary) {
   Strip time{"time [ms]", "#0072B2"}, points{"points", "#009E73"}, residual{"residual", "#E69F00"},
-      brightness{"brightness a", "#CC79A7", false}, exposure{"exposure [ms]", "#D55E00"};
+      brightness{"brightness", "#CC79A7", false}, exposure{"exposure [ms]", "#D55E00"};
   std::unordered_set<std::int64_t> tracked;
   for (const FrameRecord& frame : summary.run.result.frames) {
     if (frame.state != TrackingState::kTracked) continue;
@@ -204,8 +205,8 @@ std::string time_histogram(const RunSummary& summary) {
                        svg_line_sample(kLeft + 110, kTop + 6, {kKeyframeColour, 9, 1, ""}) +
                        svg_text(kLeft + 148, kTop + 11, "keyframes", 13);
   if (interval > 0) {
-    chart.add_line({{std::log10(interval), 0}, {std::log10(interval), y.max}}, {kLostColour, 2, 1, "5 3"});
-    legend += svg_line_sample(kLeft + 245, kTop + 6, {kLostColour, 2, 1, "5 3"}) +
+    chart.add_line({{std::log10(interval), 0}, {std::log10(interval), y.max}}, {kIntervalColour, 2, 1, "5 3"});
+    legend += svg_line_sample(kLeft + 245, kTop + 6, {kIntervalColour, 2, 1, "5 3"}) +
               svg_text(kLeft + 283, kTop + 11, format_text("time between frames (%.1f ms)", interval), 13);
   }
   return svg_document(kWidth, kTop + 22 + kHistogramHeight + kAxisRoom, legend + chart.svg());

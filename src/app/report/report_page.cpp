@@ -97,7 +97,7 @@ std::string frames_section(const RunSummary& summary) {
                        "<div class=\"chart\">" + strips + "</div>\n" +
                            html::element("p",
                                          "Shaded: no pose. Green lines: a loop was found with this keyframe. Time: of the "
-                                         "odometry for the frame. Residual: of the alignment, in grey levels.",
+                                         "odometry for the frame. Residual: of the alignment, in grey levels. Brightness: a of the transfer to the reference keyframe.",
                                          "note"));
 }
 

@@ -125,7 +125,7 @@ std::string key_figures(const RunSummary& summary) {
     html += tile("loops closed", grouped(closed), format_text("%zu candidates refused", result.loops.size() - closed));
   }
   return html + error_tile(summary) +
-         tile("speed", format_text("%.1f frames/s", frames_per_second(summary.run)),
+         tile("frames per second", format_text("%.1f", frames_per_second(summary.run)),
               format_text("%.1f s in all", summary.run.seconds)) +
          tile("peak memory", format_text("%.0f MB", peak_memory_mb())) + "</dl>\n";
 }
@@ -160,8 +160,9 @@ std::string stage_table(const RunSummary& summary) {
   for (const auto& [name, stage] : summary.run.result.stage_times) {
     const double share = wall_ms > 0 ? stage.total_ms / wall_ms : 0;
     const double mean = stage.calls > 0 ? stage.total_ms / static_cast<double>(stage.calls) : 0;
-    const bool is_part = name.find('/') != std::string::npos;
-    const std::string bar = format_text("<span class=\"bar\"><i style=\"width:%.1f%%\"></i></span>%.1f %%",
+    const bool is_part = summary.run.result.stage_times.contains(name.substr(0, name.find('/'))) &&
+                         name.find('/') != std::string::npos;
+    const std::string bar = format_text("<span class=\"bar\"><i style=\"width:%.1f%%\"></i></span><span>%.1f %%</span>",
                                         100 * std::min(share, 1.0), 100 * share);
     rows.push_back({{name, is_part ? "part" : ""},
                     {std::to_string(stage.calls)},
@@ -219,10 +220,13 @@ std::string settings_tables(const RunSummary& summary) {
     if (!is_default) changed.push_back({{used[i].first}, {used[i].second}, {defaults[i].second}});
   }
   const DatasetOptions& options = summary.dataset_options;
-  std::string html = html::element(
-      "p", format_text("Frames from %d%s, every %d%s.", options.start,
-                       options.end ? format_text(" to %d", *options.end).c_str() : " on", options.stride,
-                       options.reverse ? ", in reverse" : ""));
+  const bool is_whole = options.start == 0 && !options.end && options.stride == 1 && !options.reverse;
+  std::string html;
+  if (!is_whole) {
+    html = html::element("p", format_text("--start %d%s --stride %d%s", options.start,
+                                          options.end ? format_text(" --end %d", *options.end).c_str() : "",
+                                          options.stride, options.reverse ? " --reverse" : ""));
+  }
   html += changed.empty() ? html::element("p", "All settings are as they are by default.")
                           : html::element("h3", "Not as by default") +
                                 html::table({"setting", "value", "default"}, changed, {0, 1, 2});
