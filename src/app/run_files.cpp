@@ -20,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRunJson = "run.json";
 constexpr const char* kRemedy = "give a folder that can be written by -o";
 
 std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {

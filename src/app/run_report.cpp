@@ -69,6 +69,8 @@ Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
           {"end", options.end ? Json(*options.end) : Json()},
           {"stride", options.stride},
           {"reverse", options.reverse},
+          {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
+          {"fps", options.fps ? Json(*options.fps) : Json()},
           {"camera", describe(calibration.camera, calibration.rectification)},
           {"calibration", calibration.description},
           {"response_known", calibration.photometric.inverse_response.has_value()},
@@ -118,8 +120,9 @@ std::string evaluation_text(const RunSummary& summary) {
   if (!evaluation.truth) return "";
   if (!evaluation.result) return "not evaluated: " + evaluation.problem + "\n";
   const EvaluationResult& r = *evaluation.result;
-  std::string text = format_text("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
-                            r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
+  std::string text =
+      format_text("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
+                  r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
   if (!summary.is_corrected() || !summary.odometry_evaluation.result) return text;
   return text +
          format_text("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
@@ -129,7 +132,7 @@ std::string calibration_text(const SequenceRun& run) {
   if (run.passes == 1) return "";
   const CameraCalibration& camera = run.calibration.camera;
   return format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f (camera.txt)\n", camera.fx,
-                camera.fy, camera.distortion[0]);
+                     camera.fy, camera.distortion[0]);
 }
 
 std::string loops_text(const RunSummary& summary) {
@@ -195,10 +198,10 @@ std::string summary_text(const RunSummary& summary) {
   const SlamResult& result = summary.run.result;
   std::string text =
       format_text("frames         %zu, %zu with a pose, %d skipped, %d restarts\n", result.frames.size(),
-             summary.trajectory.size(), result.skipped, result.restarts) +
+                  summary.trajectory.size(), result.skipped, result.restarts) +
       format_text("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
       format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
-             frames_per_second(summary.run), peak_memory_mb());
+                  frames_per_second(summary.run), peak_memory_mb());
   return text + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
 }
 

@@ -359,8 +359,7 @@ std::string loop_picture(const Trajectory& before, const Trajectory& after, cons
 
 std::string loop_picture(const Trajectory& before, const Trajectory& after, const std::string& title) {
   if (before.empty() || after.empty()) throw Error("trajectory picture", "there are no poses to draw", "");
-  const Map map{
-      {}, {track_of(before, Sim3d(), kBeforeStyle), track_of(after, Sim3d(), kEstimateStyle)}, kFreeUnit};
+  const Map map{{}, {track_of(before, Sim3d(), kBeforeStyle), track_of(after, Sim3d(), kEstimateStyle)}, kFreeUnit};
   return picture_of(map, {}, {{"before loop closing", kBeforeStyle}, {"after loop closing", kEstimateStyle}}, title,
                     std::to_string(after.size()) + " poses; " + kFreeGauge, true);
 }

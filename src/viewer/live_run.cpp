@@ -84,8 +84,7 @@ std::vector<FrameCost> LiveRun::frame_costs() {
   std::vector<FrameCost> costs;
   with_map([&](const LiveMap& map) {
     for (const FrameEvent& event : map.frame_events()) {
-      if (!event.is_late)
-        costs.push_back({event.frame.frame_id, event.frame_ms, event.points, event.exposure_ms});
+      if (!event.is_late) costs.push_back({event.frame.frame_id, event.frame_ms, event.points, event.exposure_ms});
     }
   });
   return costs;

@@ -18,10 +18,10 @@ struct RecordingLimits {
 
 struct LimitedRecording {
   Bytes bytes;
-  std::size_t points = 0;     ///< In the whole recording.
-  int points_stride = 1;      ///< One of so many points of each keyframe was kept,
-  int frames_stride = 1;      ///< one of so many frames,
-  int truth_stride = 1;       ///< one of so many positions.
+  std::size_t points = 0;  ///< In the whole recording.
+  int points_stride = 1;   ///< One of so many points of each keyframe was kept,
+  int frames_stride = 1;   ///< one of so many frames,
+  int truth_stride = 1;    ///< one of so many positions.
 };
 
 /// As a recording that is replayed. What is within the limits stays as it is. Throws Error, with `name` as the context,

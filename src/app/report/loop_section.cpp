@@ -37,12 +37,14 @@ std::string loop_table(std::span<const LoopRecord> loops, std::size_t accepted) 
   std::string html = html::table({"keyframe", "earlier keyframe", "inliers", "with depth", "image covered", "scale",
                                   "rotation [°]", "drift χ²", "weight"},
                                  rows, {});
-  if (accepted > kMostRows) html += html::element("p", format_text("The first %zu of %zu.", rows.size(), accepted), "note");
-  html += html::element("p",
-                        "Scale and rotation: from the earlier keyframe to the later one. Drift χ²: squared distance from "
-                        "the odometry in its standard deviations. Weight: what the pose graph left the loop of its pull; "
-                        "near 0, it was overruled.",
-                        "note");
+  if (accepted > kMostRows)
+    html += html::element("p", format_text("The first %zu of %zu.", rows.size(), accepted), "note");
+  html +=
+      html::element("p",
+                    "Scale and rotation: from the earlier keyframe to the later one. Drift χ²: squared distance from "
+                    "the odometry in its standard deviations. Weight: what the pose graph left the loop of its pull; "
+                    "near 0, it was overruled.",
+                    "note");
   return accepted > 12 ? html::details(format_text("All %zu loops", accepted), html) : html;
 }
 
@@ -94,9 +96,10 @@ std::string loop_section(std::span<const LoopRecord> loops, const LoopPictures& 
   const auto accepted = static_cast<std::size_t>(
       std::count_if(loops.begin(), loops.end(), [](const LoopRecord& loop) { return loop.accepted; }));
   const std::size_t refused = loops.size() - accepted;
-  std::string html = html::element("p", format_text("%zu pairs of keyframes looked like one place; %zu were found to be "
-                                                    "one, %zu were refused.",
-                                                    loops.size(), accepted, refused));
+  std::string html =
+      html::element("p", format_text("%zu pairs of keyframes looked like one place; %zu were found to be "
+                                     "one, %zu were refused.",
+                                     loops.size(), accepted, refused));
   if (accepted > 0) html += loop_table(loops, accepted) + picture_list(pictures);
   if (refused > 0) html += html::details(format_text("Why %zu were refused", refused), refusal_table(loops));
   return html;

@@ -26,7 +26,7 @@ TEST(LoopSection, ShownLoopsAreSpreadOverTheAcceptedOnes) {
   EXPECT_EQ(loops_to_show(loops, 100).size(), 10u);
   const std::vector<std::size_t> two = loops_to_show(loops, 2);
   ASSERT_EQ(two.size(), 2u);
-  EXPECT_EQ(two[0], 4u);   // of 0, 2, ..., 18: in the middle of each half
+  EXPECT_EQ(two[0], 4u);  // of 0, 2, ..., 18: in the middle of each half
   EXPECT_EQ(two[1], 14u);
   EXPECT_TRUE(loops_to_show({}, 6).empty());
 }

@@ -31,7 +31,8 @@ std::string head(const std::string& title) {
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"" + kPolicy + "\">\n" +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n" +
-         html::element("title", title + " – ldso") + "\n<style>\n" + std::string(report_style()) + "</style>\n</head>\n";
+         html::element("title", title + " – ldso") + "\n<style>\n" + std::string(report_style()) +
+         "</style>\n</head>\n";
 }
 
 std::string map_note(const LimitedRecording& map) {
@@ -79,7 +80,10 @@ std::string picture_of(const RunSummary& summary) {
 std::string trajectory_section(const RunSummary& summary) {
   std::string html = "<div class=\"chart\">" + picture_of(summary) + "</div>\n";
   const RunEvaluation& evaluation = summary.evaluation;
-  if (!evaluation.result) return html::section("trajectory", "Trajectory", html + html::element("p", "Not compared with a ground truth: " + evaluation.problem + ".", "note"));
+  if (!evaluation.result)
+    return html::section(
+        "trajectory", "Trajectory",
+        html + html::element("p", "Not compared with a ground truth: " + evaluation.problem + ".", "note"));
   const bool both = summary.is_corrected() && summary.odometry_evaluation.result;
   html += html::details(both ? "All figures, after loop closing" : "All figures",
                         html::element("pre", result_table(*evaluation.result)));
@@ -93,12 +97,14 @@ std::string trajectory_section(const RunSummary& summary) {
 std::string frames_section(const RunSummary& summary) {
   const std::string strips = frame_strips(summary);
   if (strips.empty()) return "";
-  return html::section("frames", "Frames",
-                       "<div class=\"chart\">" + strips + "</div>\n" +
-                           html::element("p",
-                                         "Shaded: no pose. Green lines: a loop was found with this keyframe. Time: of the "
-                                         "odometry for the frame. Residual: of the alignment, in grey levels. Brightness: a of the transfer to the reference keyframe.",
-                                         "note"));
+  return html::section(
+      "frames", "Frames",
+      "<div class=\"chart\">" + strips + "</div>\n" +
+          html::element("p",
+                        "Shaded: no pose. Green lines: a loop was found with this keyframe. Time: of the "
+                        "odometry for the frame. Residual: of the alignment, in grey levels. Brightness: a of the "
+                        "transfer to the reference keyframe.",
+                        "note"));
 }
 
 std::string timing_section(const RunSummary& summary) {

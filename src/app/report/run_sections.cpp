@@ -39,15 +39,16 @@ std::string error_tile(const RunSummary& summary) {
     return tile("alignment error", format_text("%.3g m", evaluation.result->tum_mono->e_align),
                 both ? format_text("%.3g m before loop closing", before.result->tum_mono->e_align) : "");
   }
-  std::string remark = format_text("%.2g %% of %.3g m", evaluation.result->ate_percent_of_path(),
-                                   evaluation.result->path_length);
+  std::string remark =
+      format_text("%.2g %% of %.3g m", evaluation.result->ate_percent_of_path(), evaluation.result->path_length);
   if (summary.is_corrected() && summary.odometry_evaluation.result)
     remark += format_text("; %.3g m before loops", summary.odometry_evaluation.result->absolute.rmse);
   return tile("ATE (rmse)", format_text("%.3g m", evaluation.result->absolute.rmse), remark);
 }
 
 /// The dotted keys of an object and their values.
-void flatten(const nlohmann::json& json, const std::string& prefix, std::vector<std::pair<std::string, std::string>>& out) {
+void flatten(const nlohmann::json& json, const std::string& prefix,
+             std::vector<std::pair<std::string, std::string>>& out) {
   for (const auto& [key, value] : json.items()) {
     const std::string name = prefix.empty() ? key : prefix + "." + key;
     if (value.is_object()) {
@@ -77,20 +78,24 @@ std::string untracked_table(const RunSummary& summary) {
   Rows rows;
   for (const UntrackedStretch& stretch : stretches) {
     if (rows.size() == kMostRows) break;
-    rows.push_back({{std::to_string(stretch.first)}, {std::to_string(stretch.last)},
-                    {std::to_string(stretch.last - stretch.first + 1)}, {stretch.reason}});
+    rows.push_back({{std::to_string(stretch.first)},
+                    {std::to_string(stretch.last)},
+                    {std::to_string(stretch.last - stretch.first + 1)},
+                    {stretch.reason}});
   }
   std::string html = html::element("h3", "Frames without a pose") +
                      html::table({"first", "last", "frames", "reason (of the last)"}, rows, {3});
   if (stretches.size() > rows.size())
-    html += html::element("p", format_text("… and %zu more stretches: run.json", stretches.size() - rows.size()), "note");
+    html +=
+        html::element("p", format_text("… and %zu more stretches: run.json", stretches.size() - rows.size()), "note");
   return html;
 }
 
 std::string warning_list(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return html::element("p", "There were no warnings.");
   std::string html = html::element("h3", "Warnings") + "<ul>\n";
-  for (std::size_t i = 0; i < std::min(warnings.size(), kMostRows); ++i) html += html::element("li", warnings[i]) + "\n";
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMostRows); ++i)
+    html += html::element("li", warnings[i]) + "\n";
   html += "</ul>\n";
   if (warnings.size() > kMostRows)
     html += html::element("p", format_text("… and %zu more: run.json", warnings.size() - kMostRows), "note");
@@ -114,7 +119,8 @@ std::string state_chip(const RunSummary& summary) {
 std::string key_figures(const RunSummary& summary) {
   const SlamResult& result = summary.run.result;
   const double frames = static_cast<double>(std::max<std::size_t>(result.frames.size(), 1));
-  std::string remark = format_text("%.1f %% with a pose", 100 * static_cast<double>(summary.trajectory.size()) / frames);
+  std::string remark =
+      format_text("%.1f %% with a pose", 100 * static_cast<double>(summary.trajectory.size()) / frames);
   if (result.restarts > 0) remark += format_text(", %d restarts", result.restarts);
   if (result.skipped > 0) remark += format_text(", %d skipped", result.skipped);
   std::string html = "<dl class=\"tiles\">\n" + tile("frames", grouped(result.frames.size()), remark) +
@@ -131,8 +137,7 @@ std::string key_figures(const RunSummary& summary) {
 }
 
 std::string problem_box(const RunSummary& summary) {
-  if (!summary.run.error.empty())
-    return html::element("p", "The run ended early: " + summary.run.error, "box");
+  if (!summary.run.error.empty()) return html::element("p", "The run ended early: " + summary.run.error, "box");
   if (!summary.trajectory.empty()) return "";
   const std::vector<UntrackedStretch> stretches = untracked_stretches(summary);
   return html::element(
@@ -160,8 +165,8 @@ std::string stage_table(const RunSummary& summary) {
   for (const auto& [name, stage] : summary.run.result.stage_times) {
     const double share = wall_ms > 0 ? stage.total_ms / wall_ms : 0;
     const double mean = stage.calls > 0 ? stage.total_ms / static_cast<double>(stage.calls) : 0;
-    const bool is_part = summary.run.result.stage_times.contains(name.substr(0, name.find('/'))) &&
-                         name.find('/') != std::string::npos;
+    const bool is_part =
+        summary.run.result.stage_times.contains(name.substr(0, name.find('/'))) && name.find('/') != std::string::npos;
     const std::string bar = format_text("<span class=\"bar\"><i style=\"width:%.1f%%\"></i></span><span>%.1f %%</span>",
                                         100 * std::min(share, 1.0), 100 * share);
     rows.push_back({{name, is_part ? "part" : ""},
@@ -189,22 +194,29 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
   Rows rows = {camera_row(run.passes > 1 ? "as given" : "calibration", given.camera)};
   if (run.passes > 1) rows.push_back(camera_row("as corrected", run.calibration.camera));
   const PinholeIntrinsics& rectified = run.result.camera;
-  rows.push_back(camera_row("rectified, as estimated", {CameraModelKind::kPinhole, rectified.width, rectified.height,
-                                                        rectified.fx, rectified.fy, rectified.cx, rectified.cy, {}}));
+  rows.push_back(camera_row("rectified, as estimated", {CameraModelKind::kPinhole,
+                                                        rectified.width,
+                                                        rectified.height,
+                                                        rectified.fx,
+                                                        rectified.fy,
+                                                        rectified.cx,
+                                                        rectified.cy,
+                                                        {}}));
   std::string html = html::table({"", "model", "fx", "fy", "cx", "cy", "distortion"}, rows, {0, 1, 6});
   if (run.passes > 1) {
-    html += html::element("p",
-                          format_text("The images contradicted the calibration: it was corrected and the run begun anew, "
-                                      "%d times. camera.txt holds the better one.",
-                                      run.passes - 1),
-                          "warning");
+    html +=
+        html::element("p",
+                      format_text("The images contradicted the calibration: it was corrected and the run begun anew, "
+                                  "%d times. camera.txt holds the better one.",
+                                  run.passes - 1),
+                      "warning");
   } else if (summary.settings.self_calibration.enabled) {
     html += html::element("p", "The images do not contradict the calibration.", "note");
   }
   html += html::element("p",
-                        "Read from " + given.description + ". Response curve: " +
-                            (given.photometric.inverse_response ? "known" : "unknown") + "; vignette: " +
-                            (given.photometric.vignette.empty() ? "unknown" : "known") + ".",
+                        "Read from " + given.description +
+                            ". Response curve: " + (given.photometric.inverse_response ? "known" : "unknown") +
+                            "; vignette: " + (given.photometric.vignette.empty() ? "unknown" : "known") + ".",
                         "note");
   return html;
 }
@@ -236,7 +248,8 @@ std::string settings_tables(const RunSummary& summary) {
 std::string footer() {
   const nlohmann::ordered_json versions = versions_json();
   std::string text = "ldso " + project_version() + ", " + compiler_version();
-  for (const auto& [name, version] : versions.at("libraries").items()) text += ", " + name + " " + version.get<std::string>();
+  for (const auto& [name, version] : versions.at("libraries").items())
+    text += ", " + name + " " + version.get<std::string>();
   return "<footer>" + html::escape(text) + "</footer>\n";
 }
 
