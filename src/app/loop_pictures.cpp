@@ -89,6 +89,7 @@ std::vector<std::string> write_loop_pictures(const fs::path& folder, std::span<c
                                              const Dataset& dataset, const Calibration& calibration,
                                              const PhotometrySettings& photometry) {
   std::vector<std::string> warnings;
+  if (dataset.size() == 0) return {"no pictures of loops: the images of a camera are not kept"};
   const FramePreprocessor preprocessor(calibration, photometry);
   for (const LoopRecord& loop : loops) {
     if (!loop.accepted) continue;

@@ -84,8 +84,10 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   write_loop_files(folder, summary);
   write_picture(folder, summary);
   write_recording(folder / kRecordingName, summary.recording);
-  fs::remove(folder / "camera.txt");
+  for (const char* name : {"camera.txt", "camera_better.txt"}) fs::remove(folder / name);
   if (summary.run.passes > 1) write_file(folder / "camera.txt", camera_file_text(summary.run.calibration));
+  if (summary.run.better_calibration)
+    write_file(folder / "camera_better.txt", camera_file_text(*summary.run.better_calibration));
   write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");
 }
 

@@ -59,12 +59,27 @@ Json self_calibration_json(const SequenceRun& run) {
             {"distortion", camera.distortion}}}};
 }
 
+/// Of a camera: those that came.
+std::size_t frames_of(const SequenceRun& run, const Dataset& dataset) {
+  const std::size_t dropped = run.live ? static_cast<std::size_t>(run.live->dropped) : 0;
+  return dataset.size() > 0 ? static_cast<std::size_t>(dataset.size()) : run.result.frames.size() + dropped;
+}
+
+Json live_json(const SequenceRun& run) {
+  if (!run.live) return {};
+  return {{"dropped_frames", run.live->dropped},
+          {"longest_gap", run.live->longest_gap},
+          {"mean_latency_ms", run.live->mean_latency_ms},
+          {"worst_latency_ms", run.live->worst_latency_ms},
+          {"calibration_is_wrong", run.better_calibration.has_value()}};
+}
+
 Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
   const Calibration& calibration = dataset.calibration();
   const DatasetOptions& options = summary.dataset_options;
   return {{"path", summary.sequence_path.string()},
           {"format", dataset.format_name()},
-          {"frames", dataset.size()},
+          {"frames", frames_of(summary.run, dataset)},
           {"start", options.start},
           {"end", options.end ? Json(*options.end) : Json()},
           {"stride", options.stride},
@@ -135,6 +150,13 @@ std::string calibration_text(const SequenceRun& run) {
                      camera.fy, camera.distortion[0]);
 }
 
+std::string live_text(const SequenceRun& run) {
+  if (!run.live) return "";
+  return format_text(
+      "live           %d frames dropped, at most %d in a row; %.0f ms from a frame to its pose, at most %.0f\n",
+      run.live->dropped, run.live->longest_gap, run.live->mean_latency_ms, run.live->worst_latency_ms);
+}
+
 std::string loops_text(const RunSummary& summary) {
   if (!summary.settings.loops.enabled) return "loops          off\n";
   const std::int64_t closed = closed_loops(summary.run.result);
@@ -202,7 +224,7 @@ std::string summary_text(const RunSummary& summary) {
       format_text("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
       format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
                   frames_per_second(summary.run), peak_memory_mb());
-  return text + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
+  return text + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {
@@ -213,6 +235,7 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["settings"] = settings_to_json(summary.settings);
   json["self_calibration"] = self_calibration_json(run);
   json["counts"] = counts_json(summary);
+  json["live"] = live_json(run);
   json["first_tracked_frame"] = summary.posed.empty() ? Json() : Json(summary.posed.front());
   json["initialized_at"] = run.result.initializations;
   json["interrupted"] = run.stopped;

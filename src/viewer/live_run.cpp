@@ -39,12 +39,15 @@ LiveRun::LiveRun(LiveRunOptions options)
   if (!options_.server) return;
   server_ = std::make_unique<Server>(
       *options_.server, map_, [this](LiveMap& map, std::size_t viewers) { tick(map, viewers); },
-      [this](protocol::Command command) { control_.command(command); });
+      [this](protocol::Command command) {
+        if (options_.has_control) control_.command(command);
+      });
 }
 
 LiveRun::~LiveRun() = default;
 
-void LiveRun::after_frame(int done, int count, const std::atomic<bool>& stop) {
+void LiveRun::after_frame(int done, int count, const std::atomic<bool>& stop, int dropped) {
+  dropped_.store(dropped);
   done_.store(done);
   count_.store(count);
   if (server_) {
@@ -131,6 +134,7 @@ void LiveRun::update_status(LiveMap& map, std::size_t viewers) {
     if (status.frames_per_s < 0.05f) status.frames_per_s = 0;
     status.done = done;
     status.count = static_cast<std::uint32_t>(count_.load());
+    status.dropped = static_cast<std::uint32_t>(dropped_.load());
     status.loop_candidates = static_cast<std::uint32_t>(feed_->loop_candidates());
     status.memory_mb = static_cast<float>(process_memory_mb());
     last_status_ = now;

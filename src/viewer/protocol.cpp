@@ -206,6 +206,7 @@ Bytes encode(const Status& status) {
   out.put(status.loop_candidates);
   out.put(status.memory_mb);
   out.put(status.frames_per_s);
+  out.put(status.dropped);
   return out.finish();
 }
 

@@ -90,6 +90,7 @@ struct Status {
   std::uint32_t loop_candidates = 0;
   float memory_mb = 0;  ///< Of the program, now.
   float frames_per_s = 0;
+  std::uint32_t dropped = 0;  ///< Frames of a live run that came too fast.
   bool operator==(const Status&) const = default;
 };
 

@@ -86,8 +86,10 @@ export class Panel {
     const inWindow = model.window?.keyframes.filter((k) => !model.keyframe(k.id)).length ?? 0;
     set('n-keyframes', thousands(model.keyframes.length + inWindow));
     set('n-loops', thousands(model.loops.length));
-    const count = status?.count ?? 0;
-    set('n-frames', count > 0 ? `${thousands(status!.done)} / ${thousands(count)}` : thousands(model.frames.length));
+    const [done, count] = [status?.done ?? 0, status?.count ?? 0];
+    set('n-frames', count > 0 ? `${thousands(done)} / ${thousands(count)}` : thousands(Math.max(done, model.frames.length)));
+    element('dropped-row').hidden = !status?.dropped;
+    set('dropped', thousands(status?.dropped ?? 0));
     set('rate', status && status.framesPerSecond > 0 ? `${status.framesPerSecond.toFixed(1)} /s` : '–');
     set('memory', status && status.memoryMb > 0 ? `${thousands(status.memoryMb)} MB` : '–');
     set('tracked', frame ? thousands(frame.points) : '–');

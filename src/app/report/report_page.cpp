@@ -145,8 +145,10 @@ std::string report_html(const ReportInput& input) {
 void write_report(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset) {
   const std::vector<LoopRecord>& loops = summary.run.result.loops;
   ReportInput input{summary, dataset, {}, report_script(), now()};
-  input.pictures = make_loop_pictures(loops, loops_to_show(loops, kMostPictures), dataset, summary.run.calibration,
-                                      summary.settings.photometry, kMostPictureBytes);
+  // A camera has no frames to be read again.
+  const std::vector<std::size_t> shown = loops_to_show(loops, dataset.size() > 0 ? kMostPictures : 0);
+  input.pictures = make_loop_pictures(loops, shown, dataset, summary.run.calibration, summary.settings.photometry,
+                                      kMostPictureBytes);
   write_file(folder / kReportName, report_html(input));
 }
 

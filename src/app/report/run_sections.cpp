@@ -130,6 +130,13 @@ std::string key_figures(const RunSummary& summary) {
     const auto closed = static_cast<std::size_t>(closed_loops(result));
     html += tile("loops closed", grouped(closed), format_text("%zu candidates refused", result.loops.size() - closed));
   }
+  if (const auto& live = summary.run.live) {
+    const double came = frames + live->dropped;
+    html += tile("frames dropped", grouped(static_cast<std::size_t>(live->dropped)),
+                 format_text("%.1f %% of those that came", 100 * live->dropped / came)) +
+            tile("latency", format_text("%.0f ms", live->mean_latency_ms),
+                 format_text("at most %.0f ms", live->worst_latency_ms));
+  }
   return html + error_tile(summary) +
          tile("frames per second", format_text("%.1f", frames_per_second(summary.run)),
               format_text("%.1f s in all", summary.run.seconds)) +
@@ -193,6 +200,7 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
   const SequenceRun& run = summary.run;
   Rows rows = {camera_row(run.passes > 1 ? "as given" : "calibration", given.camera)};
   if (run.passes > 1) rows.push_back(camera_row("as corrected", run.calibration.camera));
+  if (run.better_calibration) rows.push_back(camera_row("better", run.better_calibration->camera));
   const PinholeIntrinsics& rectified = run.result.camera;
   rows.push_back(camera_row("rectified, as estimated", {CameraModelKind::kPinhole,
                                                         rectified.width,
@@ -210,6 +218,11 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
                                   "%d times. camera.txt holds the better one.",
                                   run.passes - 1),
                       "warning");
+  } else if (run.better_calibration) {
+    html += html::element("p",
+                          "The images contradict the calibration. A live run cannot begin anew and went on with it; "
+                          "camera_better.txt holds a better one for --calib next time.",
+                          "warning");
   } else if (summary.settings.self_calibration.enabled) {
     html += html::element("p", "The images do not contradict the calibration.", "note");
   }
