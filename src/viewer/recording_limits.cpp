@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "viewer/pose_history.h"
+
 namespace ldso {
 namespace {
 
@@ -18,6 +20,15 @@ struct Counts {
 
 std::size_t records_in(const Message& message, std::size_t record) {
   return message.payload.size() < kCountBytes ? 0 : (message.payload.size() - kCountBytes) / record;
+}
+
+/// Corrected poses with fewer steps in between.
+PoseHistory thinned_history(const std::vector<Message>& messages, std::size_t most, const std::string& name) {
+  PoseHistory history(most);
+  for (const Message& message : messages) {
+    if (message.type == MessageType::kPoses) history.add(protocol::decode_poses(message.payload, name));
+  }
+  return history;
 }
 
 Counts count(const std::vector<Message>& messages, const std::string& name) {
@@ -100,7 +111,7 @@ LimitedRecording limit_recording(const Bytes& recording, const RecordingLimits& 
     limited.bytes.insert(limited.bytes.end(), bytes.begin(), bytes.end());
   };
   for (const Message& message : messages) {
-    if (message.type == MessageType::kLog) continue;
+    if (message.type == MessageType::kLog || message.type == MessageType::kPoses) continue;
     if (message.type == MessageType::kHello) {
       protocol::Hello hello = protocol::decode_hello(message.payload, name);
       hello.mode = protocol::Mode::kReplay;
@@ -116,6 +127,7 @@ LimitedRecording limit_recording(const Bytes& recording, const RecordingLimits& 
       put(protocol::whole(message));
     }
   }
+  for (const protocol::Poses& step : thinned_history(messages, limits.poses, name).steps()) put(encode(step));
   return limited;
 }
 

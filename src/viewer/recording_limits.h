@@ -14,6 +14,7 @@ struct RecordingLimits {
   std::size_t points = 250'000;  ///< 18 bytes each.
   std::size_t frames = 20'000;   ///< 112 bytes each.
   std::size_t truth = 20'000;    ///< 24 bytes each.
+  std::size_t poses = 15'000;    ///< Of the history of corrections; 72 bytes each.
 };
 
 struct LimitedRecording {

@@ -147,6 +147,10 @@ export class MapView {
   /** Shows the run as it was at a frame; Infinity: as it is. */
   setCutoff(frameId: number): void {
     this.cutoff = frameId;
+    if (this.model.setTime(frameId)) {
+      this.updatePoses();
+      this.updateTrajectories(0);
+    }
     this.showUpToCutoff();
     this.rebuildEdges();
   }

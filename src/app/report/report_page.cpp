@@ -19,7 +19,7 @@ namespace ldso {
 namespace {
 
 /// With these a report stays below 15 MB: base64 makes four bytes of three.
-constexpr RecordingLimits kMapLimits{250'000, 20'000, 20'000};
+constexpr RecordingLimits kMapLimits{250'000, 20'000, 20'000, 15'000};
 constexpr std::size_t kMostPictures = 6;
 constexpr std::size_t kMostPictureBytes = 3'000'000;
 
