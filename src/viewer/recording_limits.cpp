@@ -127,7 +127,8 @@ LimitedRecording limit_recording(const Bytes& recording, const RecordingLimits& 
       put(protocol::whole(message));
     }
   }
-  for (const protocol::Poses& step : thinned_history(messages, limits.poses, name).steps()) put(encode(step));
+  const PoseHistory history = thinned_history(messages, limits.poses, name);
+  for (const protocol::Poses& step : history.steps()) put(encode(step));
   return limited;
 }
 
