@@ -21,7 +21,7 @@ expect_true "it is played at its own pace" "$(json "$WORK/paced/run.json" "['tim
 
 # A thousand frames a second.
 copy_sequence "$SEQUENCE" "$WORK/fast"
-awk '{ $2 = n++ / 1000; print }' <(grep -v '^#' "$SEQUENCE/times.txt") >"$WORK/fast/times.txt"
+awk '{ $2 = 0.001 * n++; print }' <(grep -v '^#' "$SEQUENCE/times.txt") >"$WORK/fast/times.txt"
 rm -f "$WORK/fast/groundtruth.txt"
 # Whether anything can be tracked then is another matter.
 status=0

@@ -47,7 +47,7 @@ async function testContent(page) {
   assert.equal(await page.locator('main img[src="x"]').count(), 0);
   const titles = await page.locator('h2').allTextContents();
   assert.deepEqual(titles,
-    ['Map', 'Trajectory and error', 'Frames', 'Time', 'Loops', 'What went wrong', 'Camera', 'Settings']);
+    ['Map', 'Trajectory and error', 'Frames', 'Time', 'Loops', 'Problems', 'Camera', 'Settings']);
   assert.equal(await page.locator('.chart svg').count(), 3);
   assert.match(await page.textContent('#timing'), /odometry/);
 }

@@ -135,7 +135,7 @@ std::string report_html(const ReportInput& input) {
                      trajectory_section(summary) + frames_section(summary) + timing_section(summary);
   if (summary.settings.loops.enabled)
     page += html::section("loops", "Loops", loop_section(summary.run.result.loops, input.pictures));
-  page += html::section("warnings", "What went wrong", warning_lists(summary)) +
+  page += html::section("warnings", "Problems", warning_lists(summary)) +
           html::section("camera", "Camera", camera_tables(summary, input.dataset)) +
           html::section("settings", "Settings", settings_tables(summary)) + "</main>\n" + footer();
   if (!input.map_script.empty()) page += "<script>\n" + std::string(input.map_script) + "</script>\n";

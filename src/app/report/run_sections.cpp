@@ -30,20 +30,24 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
+std::string length_text(double metres) {
+  return metres < 0.01 ? format_text("%.3g mm", 1e3 * metres) : format_text("%.3g m", metres);
+}
+
 std::string error_tile(const RunSummary& summary) {
   const RunEvaluation& evaluation = summary.evaluation;
   if (!evaluation.result) return "";
   if (evaluation.result->tum_mono) {
     const RunEvaluation& before = summary.odometry_evaluation;
     const bool both = summary.is_corrected() && before.result && before.result->tum_mono;
-    return tile("alignment error", format_text("%.3g m", evaluation.result->tum_mono->e_align),
-                both ? format_text("%.3g m before loop closing", before.result->tum_mono->e_align) : "");
+    return tile("alignment error", length_text(evaluation.result->tum_mono->e_align),
+                both ? length_text(before.result->tum_mono->e_align) + " before loop closing" : "");
   }
   std::string remark =
       format_text("%.2g %% of %.3g m", evaluation.result->ate_percent_of_path(), evaluation.result->path_length);
   if (summary.is_corrected() && summary.odometry_evaluation.result)
-    remark += format_text("; %.3g m before loops", summary.odometry_evaluation.result->absolute.rmse);
-  return tile("ATE (rmse)", format_text("%.3g m", evaluation.result->absolute.rmse), remark);
+    remark += "; " + length_text(summary.odometry_evaluation.result->absolute.rmse) + " before loops";
+  return tile("ATE (rmse)", length_text(evaluation.result->absolute.rmse), remark);
 }
 
 /// The dotted keys of an object and their values.
