@@ -64,7 +64,7 @@ TEST(PacedStream, NoFrameComesBeforeItsTime) {
 }
 
 TEST(PacedStream, FramesThatNobodyWaitedForAreMissed) {
-  const TickingDataset dataset(30);
+  const TickingDataset dataset(3000);
   const auto stream = make_paced_stream(dataset);
   EXPECT_EQ(stream->wait(never)->index, 0);
   pass_time(0.3);
