@@ -1,5 +1,6 @@
 #include "app/run.h"
 
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -156,8 +157,8 @@ LiveRunOptions live_options(const RunArguments& a, const Input& input) {
   return options;
 }
 
-/// Runs the sequence with everything that is shown meanwhile.
-void run_with_display(const Input& input, const RunArguments& a, LiveRun& live, RunSummary& summary) {
+/// Runs the sequence with everything that is shown meanwhile. Whether Ctrl-C ended it.
+bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, RunSummary& summary) {
   ProgressDisplay display(a.quiet);
   WarningLog warnings(display);
   const auto log = [&](LogLevel level, const std::string& text) {
@@ -184,6 +185,7 @@ void run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
   summary.recording = live.recording();
   summary.frame_costs = live.frame_costs();
   summary.warnings = warnings.warnings();
+  return interrupt.flag();
 }
 
 /// Frames that cannot be read again cost their pictures only.
@@ -194,6 +196,16 @@ void draw_loops(const RunArguments& a, const Dataset& dataset, RunSummary& summa
                                                   summary.settings.photometry)) {
     std::cerr << "warning: " << warning << "\n";
     summary.warnings.push_back(std::move(warning));
+  }
+}
+
+/// A report that cannot be written costs itself only.
+void report(const fs::path& folder, const Dataset& dataset, RunSummary& summary) {
+  try {
+    write_report(folder, summary, dataset);
+  } catch (const std::exception& error) {
+    summary.warnings.push_back(std::string("there is no report: ") + error.what());
+    std::cerr << "warning: " << summary.warnings.back() << "\n";
   }
 }
 
@@ -214,12 +226,12 @@ int run(const RunArguments& a) {
   LiveRun live(live_options(a, input));
   if (a.view) announce_page(live.url());
 
-  run_with_display(input, a, live, summary);
+  const bool was_interrupted = run_with_display(input, a, live, summary);
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
   draw_loops(a, dataset, summary);
-  if (!a.no_report) write_report(a.out, summary, dataset);
+  if (!a.no_report) report(a.out, dataset, summary);
   write_run_files(a.out, summary, dataset, a.kitti);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
@@ -228,7 +240,7 @@ int run(const RunArguments& a) {
                 "the frames up to there are saved in " + a.out.string());
   }
   const int code = exit_code_of(summary);
-  if (a.view && !a.view_exit && !summary.run.stopped) serve_until_interrupted(live.url());
+  if (a.view && !a.view_exit && !was_interrupted) serve_until_interrupted(live.url());
   if (code == kNothingTrackedExitCode) {
     const auto stretches = untracked_stretches(summary);
     std::cerr << "error: " << a.sequence.string() << ": no frame could be tracked"
