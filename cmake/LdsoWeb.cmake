@@ -68,7 +68,7 @@ endif()
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/web/src ${PROJECT_BINARY_DIR}/web/src SYMBOLIC)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/web/tsconfig.json ${PROJECT_BINARY_DIR}/web/tsconfig.json SYMBOLIC)
 file(GLOB_RECURSE web_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/src/* ${PROJECT_SOURCE_DIR}/web/static/*)
-set(LDSO_WEB_FILES ${LDSO_WEB_DIST}/app.js ${LDSO_WEB_DIST}/index.html ${LDSO_WEB_DIST}/style.css
+set(LDSO_WEB_FILES ${LDSO_WEB_DIST}/app.js ${LDSO_WEB_DIST}/report.js ${LDSO_WEB_DIST}/index.html ${LDSO_WEB_DIST}/style.css
   ${LDSO_WEB_DIST}/icon.svg)
 add_custom_command(OUTPUT ${LDSO_WEB_FILES}
   COMMAND ${LDSO_NODE} ${PROJECT_SOURCE_DIR}/web/build.mjs ${LDSO_WEB_MODULES} ${LDSO_WEB_DIST}

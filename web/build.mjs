@@ -11,8 +11,9 @@ const esbuild = createRequire(join(modules, 'x.js'))('esbuild');
 
 mkdirSync(out, { recursive: true });
 await esbuild.build({
-  entryPoints: [join(here, 'src/main.ts')],
-  outfile: join(out, 'app.js'),
+  // The page of the server, and the map in a report.
+  entryPoints: { app: join(here, 'src/main.ts'), report: join(here, 'src/report.ts') },
+  outdir: out,
   bundle: true,
   minify: true,
   format: 'iife',

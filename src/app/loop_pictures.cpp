@@ -6,10 +6,12 @@
 #include <numbers>
 #include <regex>
 #include <system_error>
+#include <utility>
 
 #include "image/frame_preprocessor.h"
 #include "io/match_picture.h"
 #include "ldso/error.h"
+#include "viewer/shrink.h"
 
 namespace ldso {
 namespace {
@@ -17,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFolder = "loops";
+constexpr int kAnyWidth = 1 << 20;
+constexpr int kMostReportWidth = 640;  ///< Of each of both images.
+constexpr int kJpegQuality = 72;
 
 /// The rectified image as people like to see it: linear intensities look dark on a screen.
 Image<float> displayed_image(const Dataset& dataset, const FramePreprocessor& preprocessor, std::int64_t frame_id) {
@@ -33,17 +38,24 @@ Image<float> displayed_image(const Dataset& dataset, const FramePreprocessor& pr
   return image;
 }
 
-void write_picture(const fs::path& path, const LoopRecord& loop, const Dataset& dataset,
-                   const FramePreprocessor& preprocessor) {
+/// Both images at their own size, or smaller so that none is wider than `most_width`.
+Image<Rgb> draw_picture(const LoopRecord& loop, const Dataset& dataset, const FramePreprocessor& preprocessor,
+                        const std::string& caption, int most_width = kAnyWidth) {
   const Image<float> candidate = displayed_image(dataset, preprocessor, loop.candidate_id);
   const Image<float> keyframe = displayed_image(dataset, preprocessor, loop.keyframe_id);
+  const Image<float> left = shrink(candidate.view(), most_width), right = shrink(keyframe.view(), most_width);
+  const float scale = static_cast<float>(left.width()) / static_cast<float>(candidate.width());
   std::vector<PictureMatch> matches;
   matches.reserve(loop.matches.size());
   for (const LoopMatchPixels& match : loop.matches) {
-    matches.push_back({{match.u_candidate, match.v_candidate}, {match.u, match.v}});
+    matches.push_back({{scale * match.u_candidate, scale * match.v_candidate}, {scale * match.u, scale * match.v}});
   }
-  const Image<Rgb> picture = draw_matches(candidate.view(), keyframe.view(), matches, loop_caption(loop));
-  write_png(path, picture.view());
+  return draw_matches(left.view(), right.view(), matches, caption);
+}
+
+std::string missing_picture(const LoopRecord& loop, const std::exception& error) {
+  return "no picture of the loop from frame " + std::to_string(loop.keyframe_id) + " to frame " +
+         std::to_string(loop.candidate_id) + ": " + error.what();
 }
 
 }  // namespace
@@ -77,19 +89,41 @@ std::vector<std::string> write_loop_pictures(const fs::path& folder, std::span<c
                                              const Dataset& dataset, const Calibration& calibration,
                                              const PhotometrySettings& photometry) {
   std::vector<std::string> warnings;
+  if (dataset.size() == 0) return {"no pictures of loops: the images of a camera are not kept"};
   const FramePreprocessor preprocessor(calibration, photometry);
   for (const LoopRecord& loop : loops) {
     if (!loop.accepted) continue;
     const std::string name = std::to_string(loop.keyframe_id) + "_" + std::to_string(loop.candidate_id) + ".png";
     try {
       fs::create_directories(folder / kFolder);
-      write_picture(folder / kFolder / name, loop, dataset, preprocessor);
+      write_png(folder / kFolder / name, draw_picture(loop, dataset, preprocessor, loop_caption(loop)).view());
     } catch (const std::exception& error) {
-      warnings.push_back("no picture of the loop from frame " + std::to_string(loop.keyframe_id) + " to frame " +
-                         std::to_string(loop.candidate_id) + ": " + error.what());
+      warnings.push_back(missing_picture(loop, error));
     }
   }
   return warnings;
+}
+
+LoopPictures make_loop_pictures(std::span<const LoopRecord> loops, std::span<const std::size_t> shown,
+                                const Dataset& dataset, const Calibration& calibration,
+                                const PhotometrySettings& photometry, std::size_t most_bytes) {
+  LoopPictures made;
+  if (shown.empty()) return made;
+  const FramePreprocessor preprocessor(calibration, photometry);
+  std::size_t bytes = 0;
+  for (const std::size_t index : shown) {
+    const LoopRecord& loop = loops[index];
+    try {
+      const Image<Rgb> picture = draw_picture(loop, dataset, preprocessor, "", kMostReportWidth);
+      LoopPicture small{loop_caption(loop), encode_jpeg(picture.view(), kJpegQuality)};
+      bytes += small.jpeg.size();
+      if (bytes > most_bytes) break;
+      made.pictures.push_back(std::move(small));
+    } catch (const std::exception& error) {
+      made.problems.push_back(missing_picture(loop, error));
+    }
+  }
+  return made;
 }
 
 }  // namespace ldso

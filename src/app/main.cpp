@@ -10,6 +10,7 @@
 #include "app/command_line.h"
 #include "app/eval.h"
 #include "app/experiment.h"
+#include "app/export.h"
 #include "app/run.h"
 #include "app/versions.h"
 #include "app/view.h"
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   ldso::add_run_command(app, exit_code);
   ldso::add_view_command(app);
+  ldso::add_export_command(app);
   ldso::add_eval_command(app);
   ldso::add_vocab_command(app);
 #ifdef LDSO_HAS_SIMULATE

@@ -11,6 +11,7 @@ constexpr int kBarWidth = 24;
 constexpr std::chrono::milliseconds kRedraw{100};
 
 std::string bar(int done, int count) {
+  if (count <= 0) return "";  // Nobody knows how much there is to do.
   const int filled = static_cast<int>(static_cast<long long>(kBarWidth) * done / count);
   std::string text(kBarWidth + 3, ' ');
   text.front() = '[';
@@ -41,7 +42,9 @@ void ProgressBar::update(int done, int count, const std::string& text) {
     if (!last && now - drawn_ < kRedraw) return;
     drawn_ = now;
     draw_bar(done, count, text);
-  } else if (done != printed_ && (last || done % plain_line_every_ == 0)) {
+    // Live runs leave frames out.
+  } else if (done != printed_ &&
+             (last || (done >= plain_line_every_ && done / plain_line_every_ != printed_ / plain_line_every_))) {
     printed_ = done;
     std::fprintf(stderr, "%s\n", text.c_str());
   }

@@ -1,5 +1,6 @@
 #include "app/run.h"
 
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,11 +15,14 @@
 #include "app/live_truth.h"
 #include "app/loop_pictures.h"
 #include "app/progress_display.h"
+#include "app/report/report_page.h"
 #include "app/run_as_job.h"
 #include "app/run_files.h"
 #include "app/run_report.h"
+#include "io/camera_stream.h"
 #include "io/settings_file.h"
 #include "ldso/error.h"
+#include "slam/live_runner.h"
 #include "slam/sequence_runner.h"
 #include "viewer/live_run.h"
 
@@ -35,11 +39,15 @@ struct RunArguments {
   std::optional<std::string> view;
   std::vector<std::string> set;
   bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false, view_exit = false,
-       view_paused = false;
+       view_paused = false, no_report = false, live = false;
 };
 
 void add_options(CLI::App& command, RunArguments& a) {
-  command.add_option("sequence", a.sequence, "Folder or video file; the format is recognized")->required();
+  command
+      .add_option("sequence", a.sequence,
+                  "Folder or video file, whose format is recognized; or camera:0, the first camera of this "
+                  "machine (camera:/dev/video2, camera:rtsp://... name others)")
+      ->required();
   command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
   command.add_option("--start", a.dataset.start, "First frame")->check(CLI::NonNegativeNumber);
   command.add_option("--end", a.dataset.end,
@@ -48,7 +56,11 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
   command.add_option("--calib", a.dataset.calibration_file,
                      "Calibration (camera.txt format) instead of the sequence's");
-  command.add_option("--fps", a.dataset.fps, "Frame rate of a sequence without times [Hz]")->check(CLI::PositiveNumber);
+  CLI::Option* live = command.add_flag("--live", a.live,
+                                       "Play the sequence at its own pace, as a camera would give it: frames that come "
+                                       "too fast are dropped. A camera is always live");
+  command.add_option("--fps", a.dataset.fps, "Frame rate of a sequence without times, or to ask a camera for [Hz]")
+      ->check(CLI::PositiveNumber);
   command.add_option("--config", a.config, "Settings (YAML)");
   command.add_option("--set", a.set, "One setting, e.g. selection.strategy=gradient; can be repeated")
       ->type_name("KEY=VALUE");
@@ -66,7 +78,9 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_flag("--view-exit", a.view_exit, "End with the run instead of serving the page until Ctrl-C")
       ->needs(view);
   command.add_flag("--view-paused", a.view_paused, "Wait at the first frame until the page says continue or step")
-      ->needs(view);
+      ->needs(view)
+      ->excludes(live);
+  command.add_flag("--no-report", a.no_report, "Do not write report.html");
   command.add_flag("--quiet", a.quiet, "Print warnings only");
   command.add_flag(
       "--job", a.job,
@@ -108,39 +122,70 @@ class WarningLog {
   std::vector<std::string> warnings_;
 };
 
-LiveRunOptions live_options(const RunArguments& a, const Dataset& dataset) {
+/// What is run.
+struct Input {
+  std::unique_ptr<Dataset> dataset;     ///< Of a camera: what there is to know of it.
+  std::unique_ptr<FrameStream> stream;  ///< Of a live run.
+  bool is_camera = false;
+};
+
+Input open_input(const RunArguments& a) {
+  Input input;
+  if (const std::optional<std::string> camera = camera_of(a.sequence.string())) {
+    input.is_camera = true;
+    input.stream = open_camera(*camera, a.dataset);
+    input.dataset = make_camera_dataset(*camera, input.stream->calibration());
+    return input;
+  }
+  input.dataset = open_dataset(a.sequence, a.dataset);
+  if (a.live) input.stream = make_paced_stream(*input.dataset);
+  return input;
+}
+
+std::string describe_drops(const LiveFigures& live) {
+  return std::to_string(live.dropped) + " frames were dropped, at most " + std::to_string(live.longest_gap) +
+         " in a row: they came faster than they could be processed";
+}
+
+LiveRunOptions live_options(const RunArguments& a, const Input& input) {
   LiveRunOptions options;
+  options.has_control = input.stream == nullptr;
   options.name = a.sequence.lexically_normal().string();
-  add_truth(dataset, options);
+  add_truth(*input.dataset, options);
   if (a.view) options.server = make_server_options(*a.view);
   options.is_paused = a.view_paused;
   return options;
 }
 
-/// Runs the sequence with everything that is shown meanwhile.
-void run_with_display(const Dataset& dataset, const RunArguments& a, LiveRun& live, RunSummary& summary) {
+/// Runs the sequence with everything that is shown meanwhile. Whether Ctrl-C ended it.
+bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, RunSummary& summary) {
   ProgressDisplay display(a.quiet);
   WarningLog warnings(display);
   const auto log = [&](LogLevel level, const std::string& text) {
     warnings(level, text);
     live.log(level, text);
   };
-  for (const std::string& warning : dataset.warnings()) log(LogLevel::kWarning, warning);
+  for (const std::string& warning : input.dataset->warnings()) log(LogLevel::kWarning, warning);
   const InterruptGuard interrupt;
   RunOptions options;
   options.stop = &interrupt.flag();
   options.observer = live.observer();
   options.progress = [&](const RunProgress& progress) {
     display.update(progress);
-    live.after_frame(progress.done, progress.count, interrupt.flag());
+    live.after_frame(progress.done, progress.count, interrupt.flag(), progress.dropped);
   };
-  live.after_frame(0, dataset.size(), interrupt.flag());
-  summary.run = run_sequence(dataset, summary.settings, log, options);
+  live.after_frame(0, input.dataset->size(), interrupt.flag());
+  summary.run = input.stream ? run_live(*input.stream, summary.settings, log, options)
+                             : run_sequence(*input.dataset, summary.settings, log, options);
+  if (input.is_camera) summary.run.stopped = false;  // It has no other end.
   summary.run.seconds -= live.paused_seconds();
   if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
+  if (summary.run.live && summary.run.live->dropped > 0) log(LogLevel::kWarning, describe_drops(*summary.run.live));
   live.finish();
   summary.recording = live.recording();
+  summary.frame_costs = live.frame_costs();
   summary.warnings = warnings.warnings();
+  return interrupt.flag();
 }
 
 /// Frames that cannot be read again cost their pictures only.
@@ -154,6 +199,16 @@ void draw_loops(const RunArguments& a, const Dataset& dataset, RunSummary& summa
   }
 }
 
+/// A report that cannot be written costs itself only.
+void report(const fs::path& folder, const Dataset& dataset, RunSummary& summary) {
+  try {
+    write_report(folder, summary, dataset);
+  } catch (const std::exception& error) {
+    summary.warnings.push_back(std::string("there is no report: ") + error.what());
+    std::cerr << "warning: " << summary.warnings.back() << "\n";
+  }
+}
+
 int exit_code_of(const RunSummary& summary) {
   if (summary.run.stopped) return kInterruptedExitCode;
   return summary.trajectory.empty() ? kNothingTrackedExitCode : 0;
@@ -164,18 +219,20 @@ int run(const RunArguments& a) {
   summary.sequence_path = a.sequence;
   summary.dataset_options = a.dataset;
   summary.settings = read_all_settings(a);
-  const std::unique_ptr<Dataset> dataset = open_dataset(a.sequence, a.dataset);
+  const Input input = open_input(a);
+  const Dataset& dataset = *input.dataset;
   prepare_output_folder(a.out);
 
-  LiveRun live(live_options(a, *dataset));
+  LiveRun live(live_options(a, input));
   if (a.view) announce_page(live.url());
 
-  run_with_display(*dataset, a, live, summary);
+  const bool was_interrupted = run_with_display(input, a, live, summary);
   collect_results(summary);
-  summary.evaluation = evaluate_run(summary.trajectory, *dataset);
-  if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, *dataset);
-  draw_loops(a, *dataset, summary);
-  write_run_files(a.out, summary, *dataset, a.kitti);
+  summary.evaluation = evaluate_run(summary.trajectory, dataset);
+  if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
+  draw_loops(a, dataset, summary);
+  if (!a.no_report) report(a.out, dataset, summary);
+  write_run_files(a.out, summary, dataset, a.kitti);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
   if (!summary.run.error.empty()) {
@@ -183,7 +240,7 @@ int run(const RunArguments& a) {
                 "the frames up to there are saved in " + a.out.string());
   }
   const int code = exit_code_of(summary);
-  if (a.view && !a.view_exit && !summary.run.stopped) serve_until_interrupted(live.url());
+  if (a.view && !a.view_exit && !was_interrupted) serve_until_interrupted(live.url());
   if (code == kNothingTrackedExitCode) {
     const auto stretches = untracked_stretches(summary);
     std::cerr << "error: " << a.sequence.string() << ": no frame could be tracked"

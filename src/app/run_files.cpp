@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/loops_json.h"
+#include "app/report/report_page.h"
 #include "evaluation/trajectory_picture.h"
 #include "io/calibration_file.h"
 #include "io/ply_file.h"
@@ -19,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRunJson = "run.json";
 constexpr const char* kRemedy = "give a folder that can be written by -o";
 
 std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
@@ -72,7 +72,7 @@ void prepare_output_folder(const fs::path& folder) {
   const bool writable = !file.fail();
   fs::remove(probe, error);
   if (!writable) throw Error(folder.string(), "the output folder cannot be written", kRemedy);
-  fs::remove(folder / kRunJson);
+  for (const char* name : {kRunJson, kReportName}) fs::remove(folder / name);
 }
 
 void write_run_files(const fs::path& folder, const RunSummary& summary, const Dataset& dataset, bool kitti) {
@@ -84,8 +84,10 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   write_loop_files(folder, summary);
   write_picture(folder, summary);
   write_recording(folder / kRecordingName, summary.recording);
-  fs::remove(folder / "camera.txt");
+  for (const char* name : {"camera.txt", "camera_better.txt"}) fs::remove(folder / name);
   if (summary.run.passes > 1) write_file(folder / "camera.txt", camera_file_text(summary.run.calibration));
+  if (summary.run.better_calibration)
+    write_file(folder / "camera_better.txt", camera_file_text(*summary.run.better_calibration));
   write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");
 }
 

@@ -7,6 +7,8 @@
 
 namespace ldso {
 
+inline constexpr const char* kRunJson = "run.json";
+
 /// Creates the folder of the results if there is none. Throws Error if that is impossible.
 void make_output_folder(const std::filesystem::path& folder);
 

@@ -3,13 +3,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <unordered_set>
 #include <utility>
 
+#include "app/format_text.h"
 #include "app/versions.h"
 #include "evaluation/report.h"
 #include "io/calibration_file.h"
@@ -17,18 +15,6 @@
 #include "ldso/error.h"
 
 namespace ldso {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof(text), pattern, arguments);
-  va_end(arguments);
-  return text;
-}
 
 double peak_memory_mb() {
   rusage usage{};
@@ -40,14 +26,13 @@ double frames_per_second(const SequenceRun& run) {
   return run.seconds > 0 ? static_cast<double>(run.result.frames.size()) / run.seconds : 0;
 }
 
-/// Reasons that differ by their figures only are the same reason.
-std::string without_numbers(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') result += c;
-  }
-  return result;
+std::int64_t closed_loops(const SlamResult& result) {
+  return std::count_if(result.loops.begin(), result.loops.end(), [](const LoopRecord& loop) { return loop.accepted; });
 }
+
+namespace {
+
+using Json = nlohmann::ordered_json;
 
 Trajectory stamped(const std::vector<TimedPose>& poses) {
   Trajectory trajectory;
@@ -74,16 +59,33 @@ Json self_calibration_json(const SequenceRun& run) {
             {"distortion", camera.distortion}}}};
 }
 
+/// Of a camera: those that came.
+std::size_t frames_of(const SequenceRun& run, const Dataset& dataset) {
+  const std::size_t dropped = run.live ? static_cast<std::size_t>(run.live->dropped) : 0;
+  return dataset.size() > 0 ? static_cast<std::size_t>(dataset.size()) : run.result.frames.size() + dropped;
+}
+
+Json live_json(const SequenceRun& run) {
+  if (!run.live) return {};
+  return {{"dropped_frames", run.live->dropped},
+          {"longest_gap", run.live->longest_gap},
+          {"mean_latency_ms", run.live->mean_latency_ms},
+          {"worst_latency_ms", run.live->worst_latency_ms},
+          {"calibration_is_wrong", run.better_calibration.has_value()}};
+}
+
 Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
   const Calibration& calibration = dataset.calibration();
   const DatasetOptions& options = summary.dataset_options;
   return {{"path", summary.sequence_path.string()},
           {"format", dataset.format_name()},
-          {"frames", dataset.size()},
+          {"frames", frames_of(summary.run, dataset)},
           {"start", options.start},
           {"end", options.end ? Json(*options.end) : Json()},
           {"stride", options.stride},
           {"reverse", options.reverse},
+          {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
+          {"fps", options.fps ? Json(*options.fps) : Json()},
           {"camera", describe(calibration.camera, calibration.rectification)},
           {"calibration", calibration.description},
           {"response_known", calibration.photometric.inverse_response.has_value()},
@@ -99,8 +101,7 @@ Json counts_json(const RunSummary& summary) {
           {"points", summary.points.size()},
           {"restarts", result.restarts},
           {"skipped_frames", result.skipped},
-          {"loops_closed", std::count_if(result.loops.begin(), result.loops.end(),
-                                         [](const LoopRecord& loop) { return loop.accepted; })},
+          {"loops_closed", closed_loops(result)},
           {"loop_candidates", result.loops.size()},
           {"loop_bytes_per_keyframe", std::lround(result.loop_bytes_per_keyframe)}};
 }
@@ -141,26 +142,34 @@ std::string evaluation_text(const RunSummary& summary) {
   if (!evaluation.truth) return "";
   if (!evaluation.result) return "not evaluated: " + evaluation.problem + "\n";
   const EvaluationResult& r = *evaluation.result;
-  std::string text = format("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
-                            r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
+  std::string text =
+      format_text("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
+                  r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
   if (!summary.is_corrected() || !summary.odometry_evaluation.result) return text;
   return text +
-         format("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
+         format_text("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
 }
 
 std::string calibration_text(const SequenceRun& run) {
   if (run.passes == 1) return "";
   const CameraCalibration& camera = run.calibration.camera;
-  return format("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f (camera.txt)\n", camera.fx,
-                camera.fy, camera.distortion[0]);
+  return format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f (camera.txt)\n", camera.fx,
+                     camera.fy, camera.distortion[0]);
+}
+
+std::string live_text(const SequenceRun& run) {
+  if (!run.live) return "";
+  return format_text(
+      "live           %d frames dropped, at most %d in a row; %.0f ms from a frame to its pose, at most %.0f\n",
+      run.live->dropped, run.live->longest_gap, run.live->mean_latency_ms, run.live->worst_latency_ms);
 }
 
 std::string loops_text(const RunSummary& summary) {
   if (!summary.settings.loops.enabled) return "loops          off\n";
-  const auto& loops = summary.run.result.loops;
-  const auto closed = std::count_if(loops.begin(), loops.end(), [](const LoopRecord& l) { return l.accepted; });
-  return format("loops          %td closed, %td candidates refused\n", closed,
-                static_cast<std::ptrdiff_t>(loops.size()) - closed);
+  const std::int64_t closed = closed_loops(summary.run.result);
+  const auto candidates = static_cast<std::int64_t>(summary.run.result.loops.size());
+  return format_text("loops          %lld closed, %lld candidates refused\n", static_cast<long long>(closed),
+                     static_cast<long long>(candidates - closed));
 }
 
 }  // namespace
@@ -217,12 +226,12 @@ RunEvaluation evaluate_run(const Trajectory& trajectory, const Dataset& dataset)
 std::string summary_text(const RunSummary& summary) {
   const SlamResult& result = summary.run.result;
   std::string text =
-      format("frames         %zu, %zu with a pose, %d skipped, %d restarts\n", result.frames.size(),
-             summary.trajectory.size(), result.skipped, result.restarts) +
-      format("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
-      format("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
-             frames_per_second(summary.run), peak_memory_mb());
-  return text + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
+      format_text("frames         %zu, %zu with a pose, %d skipped, %d restarts\n", result.frames.size(),
+                  summary.trajectory.size(), result.skipped, result.restarts) +
+      format_text("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
+      format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
+                  frames_per_second(summary.run), peak_memory_mb());
+  return text + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {
@@ -233,6 +242,7 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["settings"] = settings_to_json(summary.settings);
   json["self_calibration"] = self_calibration_json(run);
   json["counts"] = counts_json(summary);
+  json["live"] = live_json(run);
   json["first_tracked_frame"] = summary.posed.empty() ? Json() : Json(summary.posed.front());
   json["initialized_at"] = run.result.initializations;
   json["interrupted"] = run.stopped;

@@ -12,6 +12,7 @@
 #include "io/dataset.h"
 #include "ldso/settings.h"
 #include "slam/sequence_runner.h"
+#include "viewer/live_run.h"
 
 namespace ldso {
 
@@ -43,12 +44,17 @@ struct RunSummary {
   std::vector<WorldPoint> odometry_points;
   std::vector<std::string> warnings;
   std::vector<std::uint8_t> recording;  ///< For `ldso view`.
+  std::vector<FrameCost> frame_costs;
   RunEvaluation evaluation;
   RunEvaluation odometry_evaluation;  ///< Before loop closing.
 
   /// Whether loops have changed the poses.
   bool is_corrected() const { return !run.result.corrected.empty(); }
 };
+
+double peak_memory_mb();
+double frames_per_second(const SequenceRun& run);
+std::int64_t closed_loops(const SlamResult& result);
 
 /// Fills trajectory, keyframes and points from `summary.run`.
 void collect_results(RunSummary& summary);

@@ -186,6 +186,17 @@ void SvgChart::add_line(const Polyline& line, const LineStyle& style) {
   svg_ += "\"/>\n";
 }
 
+void SvgChart::add_rectangle(const Range& x, const Range& y, const std::string& colour, double opacity) {
+  const Eigen::Vector2d low(std::max(x.min, x_.min), std::max(y.min, y_.min));
+  const Eigen::Vector2d high(std::min(x.max, x_.max), std::min(y.max, y_.max));
+  if (!(low.x() < high.x() && low.y() < high.y())) return;
+  const Eigen::Vector2d bottom_left = to_pixel(low), top_right = to_pixel(high);
+  char shape[160];
+  std::snprintf(shape, sizeof(shape), "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"", bottom_left.x(),
+                top_right.y(), top_right.x() - bottom_left.x(), bottom_left.y() - top_right.y());
+  svg_ += shape + (" fill=\"" + colour + "\" fill-opacity=\"") + px(opacity) + "\"/>\n";
+}
+
 void SvgChart::add_circle(const Eigen::Vector2d& centre, const std::string& colour) {
   const Eigen::Vector2d pixel = to_pixel(centre);
   svg_ += "<circle cx=\"" + px(pixel.x()) + "\" cy=\"" + px(pixel.y()) + "\" r=\"6\" fill=\"white\" stroke=\"" +

@@ -58,6 +58,8 @@ class SvgChart {
                 const std::vector<Tick>& y_ticks);
   /// Points closer than half a pixel to the last drawn one are left out; the last one is kept.
   void add_line(const Polyline& line, const LineStyle& style);
+  /// Filled, cut off at the edges of the chart; nothing if it lies outside.
+  void add_rectangle(const Range& x, const Range& y, const std::string& colour, double opacity = 1);
   void add_circle(const Eigen::Vector2d& centre, const std::string& colour);
   void add_square(const Eigen::Vector2d& centre, const std::string& colour);
   const std::string& svg() const { return svg_; }

@@ -26,6 +26,8 @@ const LineStyle kBeforeStyle{kBeforeColour, 1.6, 1.0, "6 3"};
 constexpr double kWidth = 900;
 constexpr double kLeft = 90, kRight = 25, kTop = 84;
 constexpr double kMapHeight = 620, kPanelHeight = 150, kAxisRoom = 55, kPanelGap = 15;
+constexpr const char* kFreeUnit = "map units";
+constexpr const char* kFreeGauge = "scale and orientation are free";
 constexpr double kGapFactor = 8;      ///< A line is broken where the step of time exceeds this many usual ones.
 constexpr double kTruthMargin = 0.1;  ///< Ground truth shown before and after the estimate, relative to its duration.
 
@@ -327,10 +329,10 @@ std::string trajectory_picture(const Trajectory& estimate, const Trajectory& tru
 
 std::string trajectory_picture(const Trajectory& estimate, const PictureOptions& options) {
   if (estimate.empty()) throw Error("trajectory picture", "there are no poses to draw", "");
-  const Map map{{}, {track_of(estimate, Sim3d(), kEstimateStyle)}, "map units"};
+  const Map map{{}, {track_of(estimate, Sim3d(), kEstimateStyle)}, kFreeUnit};
   return picture_of(map, {}, {{options.estimate_label, kEstimateStyle}},
                     options.title.empty() ? "Camera trajectory" : options.title,
-                    std::to_string(estimate.size()) + " poses; scale and orientation are free", options.has_times);
+                    std::to_string(estimate.size()) + " poses; " + kFreeGauge, options.has_times);
 }
 
 std::string loop_picture(const Trajectory& before, const Trajectory& after, const Trajectory& truth,
@@ -353,6 +355,13 @@ std::string loop_picture(const Trajectory& before, const Trajectory& after, cons
       map, errors,
       {{"ground truth", kTruthStyle}, {"before loop closing", kBeforeStyle}, {"after loop closing", kEstimateStyle}},
       title, loop_subtitle(result_before, result_after), true);
+}
+
+std::string loop_picture(const Trajectory& before, const Trajectory& after, const std::string& title) {
+  if (before.empty() || after.empty()) throw Error("trajectory picture", "there are no poses to draw", "");
+  const Map map{{}, {track_of(before, Sim3d(), kBeforeStyle), track_of(after, Sim3d(), kEstimateStyle)}, kFreeUnit};
+  return picture_of(map, {}, {{"before loop closing", kBeforeStyle}, {"after loop closing", kEstimateStyle}}, title,
+                    std::to_string(after.size()) + " poses; " + kFreeGauge, true);
 }
 
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,

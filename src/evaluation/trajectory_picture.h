@@ -30,6 +30,9 @@ std::string trajectory_picture(const Trajectory& estimate, const PictureOptions&
 std::string loop_picture(const Trajectory& before, const Trajectory& after, const Trajectory& truth,
                          const std::string& title);
 
+/// The same without a ground truth, in the world and the unit of the map. Throws ldso::Error if one of them is empty.
+std::string loop_picture(const Trajectory& before, const Trajectory& after, const std::string& title);
+
 /// Writes the same as trajectory_picture() to a file. Throws ldso::Error if it cannot be written.
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,
                               const EvaluationResult& result, const PictureOptions& options = {});

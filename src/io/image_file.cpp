@@ -63,6 +63,15 @@ cv::Mat from_grey(ImageView<const float> grey, float factor) {
   return mat;
 }
 
+cv::Mat from_rgb(ImageView<const Rgb> image) {
+  cv::Mat mat(image.height, image.width, CV_8UC3);
+  for (int y = 0; y < image.height; ++y) {
+    std::transform(image.row(y), image.row(y) + image.width, mat.ptr<cv::Vec3b>(y),
+                   [](const Rgb& rgb) { return cv::Vec3b(rgb[2], rgb[1], rgb[0]); });  // OpenCV keeps BGR.
+  }
+  return mat;
+}
+
 void encode_png(const std::filesystem::path& path, const cv::Mat& image) {
   keep_opencv_to_one_thread();
   std::vector<std::uint8_t> bytes;
@@ -107,6 +116,12 @@ std::vector<std::uint8_t> encode_grey_jpeg(ImageView<const float> grey, int qual
   return bytes;
 }
 
+std::vector<std::uint8_t> encode_jpeg(ImageView<const Rgb> image, int quality) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", from_rgb(image), bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  return bytes;
+}
+
 void write_grey16_png(const std::filesystem::path& path, ImageView<const float> grey) {
   encode_png(path, from_grey<std::uint16_t>(grey, k16BitPerGreyLevel));
 }
@@ -117,14 +132,7 @@ void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t>
   encode_png(path, mat);
 }
 
-void write_png(const std::filesystem::path& path, ImageView<const Rgb> image) {
-  cv::Mat mat(image.height, image.width, CV_8UC3);
-  for (int y = 0; y < image.height; ++y) {
-    std::transform(image.row(y), image.row(y) + image.width, mat.ptr<cv::Vec3b>(y),
-                   [](const Rgb& rgb) { return cv::Vec3b(rgb[2], rgb[1], rgb[0]); });  // OpenCV keeps BGR.
-  }
-  encode_png(path, mat);
-}
+void write_png(const std::filesystem::path& path, ImageView<const Rgb> image) { encode_png(path, from_rgb(image)); }
 
 bool has_image_extension(const std::filesystem::path& path) {
   static const std::set<std::string> kExtensions{".png", ".jpg",  ".jpeg", ".pgm", ".ppm",  ".pnm",

@@ -32,6 +32,7 @@ void write_grey_png(const std::filesystem::path& path, ImageView<const float> gr
 /// The bytes of a JPEG file; values are rounded and clamped to 0..255, `quality` is 0..100.
 std::vector<std::uint8_t> encode_grey_jpeg(ImageView<const float> grey, int quality);
 /// Values 0..255 become 0..65535 (times 257, rounded, clamped): read_grey_image() gives them back.
+std::vector<std::uint8_t> encode_jpeg(ImageView<const Rgb> image, int quality);
 void write_grey16_png(const std::filesystem::path& path, ImageView<const float> grey);
 /// Values as they are, depth maps in millimetres for instance.
 void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t> image);

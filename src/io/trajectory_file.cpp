@@ -157,6 +157,32 @@ void write_tum_trajectory(const std::filesystem::path& path, const Trajectory& t
   write_file(path, text);
 }
 
+void write_euroc_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
+  std::string text = "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
+  for (const StampedPose& pose : trajectory) {
+    check_finite(path, pose);
+    const Eigen::Vector3d& t = pose.T_world_camera.translation();
+    const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
+    text += std::to_string(std::llround(pose.timestamp * kNanosecondsPerSecond));
+    for (const double value : {t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()}) append(text, ",%.12g", value);
+    text += '\n';
+  }
+  write_file(path, text);
+}
+
+void write_csv_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
+  std::string text = "timestamp,tx,ty,tz,qx,qy,qz,qw\n";
+  for (const StampedPose& pose : trajectory) {
+    check_finite(path, pose);
+    const Eigen::Vector3d& t = pose.T_world_camera.translation();
+    const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
+    append(text, "%.9f", pose.timestamp);
+    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) append(text, ",%.12g", value);
+    text += '\n';
+  }
+  write_file(path, text);
+}
+
 void write_kitti_poses(const std::filesystem::path& path, const Trajectory& trajectory) {
   std::string text;
   for (const StampedPose& pose : trajectory) {

@@ -39,5 +39,10 @@ std::vector<double> read_times(const std::filesystem::path& path);
 /// file cannot be written.
 void write_tum_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 void write_kitti_poses(const std::filesystem::path& path, const Trajectory& trajectory);
+/// As EuRoC's ground truth, in the order timestamp [ns], position, quaternion wxyz: the poses of the camera, not of a
+/// body that carries it.
+void write_euroc_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
+/// For spreadsheets: timestamp [s], position, quaternion xyzw, with a line of titles.
+void write_csv_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 }  // namespace ldso

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/test_sequences.h"
+#include "io/text_file.h"
 
 namespace ldso {
 namespace {
@@ -87,6 +88,25 @@ TEST(TrajectoryFile, BadLinesAreNamed) {
     const std::string message = message_for(line);
     EXPECT_NE(message.find("t.txt:2"), std::string::npos) << line << " -> " << message;
   }
+}
+
+TEST(TrajectoryFile, EurocIsReadAsWritten) {
+  const TemporaryFolder folder;
+  const Trajectory trajectory = sample_trajectory();
+  write_euroc_trajectory(folder / "e.csv", trajectory);
+  const Trajectory read = read_euroc_ground_truth(folder / "e.csv");
+  ASSERT_EQ(read.size(), trajectory.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_NEAR(read[i].timestamp, trajectory[i].timestamp, 1e-6);
+    EXPECT_TRUE(read[i].T_world_camera.matrix().isApprox(trajectory[i].T_world_camera.matrix(), 1e-9));
+  }
+  EXPECT_EQ(detect_trajectory_format(folder / "e.csv"), TrajectoryFormat::kEuroc);
+}
+
+TEST(TrajectoryFile, CsvHasTitlesAndCommas) {
+  const TemporaryFolder folder;
+  write_csv_trajectory(folder / "t.csv", {{1.5, SE3d(SO3d(), {1, 2, 3})}});
+  EXPECT_EQ(read_file(folder / "t.csv"), "timestamp,tx,ty,tz,qx,qy,qz,qw\n1.500000000,1,2,3,0,0,0,1\n");
 }
 
 TEST(TrajectoryFile, BadKittiAndEurocFilesAreErrors) {

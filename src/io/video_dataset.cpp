@@ -6,13 +6,13 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "io/calibration_file.h"
+#include "io/opencv_grey.h"
 #include "io/text_file.h"
 #include "ldso/error.h"
 
@@ -89,10 +89,7 @@ class VideoReader {
     cv::Mat frame;
     if (!capture_.read(frame) || frame.empty()) fail(index);
     ++next_;
-    if (frame.channels() == 1) return frame;
-    cv::Mat grey;
-    cv::cvtColor(frame, grey, frame.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
-    return grey;
+    return to_grey(frame);
   }
 
   [[noreturn]] void fail(int index) const {
@@ -105,15 +102,6 @@ class VideoReader {
   int next_ = 0;  ///< Index of the frame that capture_ yields next.
   std::map<int, cv::Mat> block_;
 };
-
-Image<float> to_image(const cv::Mat& grey) {
-  Image<float> image(grey.cols, grey.rows);
-  for (int y = 0; y < grey.rows; ++y) {
-    std::transform(grey.ptr<std::uint8_t>(y), grey.ptr<std::uint8_t>(y) + grey.cols, image.row(y),
-                   [](std::uint8_t v) { return static_cast<float>(v); });
-  }
-  return image;
-}
 
 class VideoDataset final : public Dataset {
  public:

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/dataset.h"
@@ -14,16 +15,25 @@
 namespace ldso {
 
 struct RunProgress {
-  int done = 0;  ///< Frames, this one included.
-  int count = 0;
+  int done = 0;   ///< Frames, this one included.
+  int count = 0;  ///< 0 if nobody knows.
   int keyframes = 0;
   const FrameRecord& frame;
+  int dropped = 0;  ///< Of `done`, those that came too fast (live runs).
 };
 
 struct RunOptions {
   std::function<void(const RunProgress&)> progress;  ///< After each frame, on the calling thread.
   const std::atomic<bool>* stop = nullptr;           ///< Once true, the run ends after the frame it is at.
   std::shared_ptr<RunObserver> observer = nullptr;   ///< Hears of everything while it happens.
+};
+
+/// What became of frames that came at times of their own.
+struct LiveFigures {
+  int dropped = 0;             ///< Frames that came while others waited.
+  int longest_gap = 0;         ///< Most of them in a row.
+  double mean_latency_ms = 0;  ///< From the arrival of a frame to its pose.
+  double worst_latency_ms = 0;
 };
 
 struct SequenceRun {
@@ -33,6 +43,9 @@ struct SequenceRun {
   bool stopped = false;     ///< Before its last frame, by the flag.
   std::string error;        ///< Why it ended early otherwise; what was done until then is in `result`.
   double seconds = 0;       ///< Wall time of all frames.
+  std::optional<LiveFigures> live = std::nullopt;  ///< Of a live run.
+  /// What a live run found to be better, but could not begin anew with.
+  std::optional<Calibration> better_calibration = std::nullopt;
 };
 
 /// A frame that cannot be read or has a wrong size is skipped with its reason; the run goes on. If the first frames

@@ -8,44 +8,10 @@
 #include <vector>
 
 #include "ldso/error.h"
-#include "slam/test_scene.h"
+#include "slam/test_scene_dataset.h"
 
 namespace ldso {
 namespace {
-
-/// The drawn scene as a dataset; some frames may be bad.
-class SceneDataset final : public Dataset {
- public:
-  explicit SceneDataset(int size) : size_(size), calibration_(scene_calibration()) {}
-
-  int unreadable = -1;
-  int wrong_size = -1;
-
-  int size() const override { return size_; }
-  double timestamp(int index) const override { return 0.1 * index; }
-  const Calibration& calibration() const override { return calibration_; }
-  std::optional<Trajectory> ground_truth() const override { return std::nullopt; }
-  std::string format_name() const override { return "drawn"; }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
-
-  RawFrame read(int index) const override {
-    if (index == unreadable) throw Error("image " + std::to_string(index), "cannot be decoded", "replace it");
-    RawFrame raw;
-    raw.id = index;
-    raw.timestamp = timestamp(index);
-    raw.name = "image " + std::to_string(index);
-    raw.grey = Image<float>(kSceneWidth, kSceneHeight);
-    const Image<std::uint8_t> drawn = draw_scene(index);
-    std::copy_n(drawn.data(), drawn.size(), raw.grey.data());
-    if (index == wrong_size) raw.grey = Image<float>(64, 48);
-    return raw;
-  }
-
- private:
-  int size_;
-  Calibration calibration_;
-  std::vector<std::string> warnings_;
-};
 
 SequenceRun run(const SceneDataset& dataset, const RunOptions& options = {}, const LogSink& log = {},
                 const Settings& settings = {}) {

@@ -36,6 +36,12 @@ class BoundedQueue {
     return item;
   }
 
+  /// Whether push() would wait, as of now.
+  bool is_full() {
+    const std::lock_guard lock(mutex_);
+    return items_.size() >= capacity_;
+  }
+
   /// No more items will come; what is queued can still be taken.
   void close() {
     const std::lock_guard lock(mutex_);

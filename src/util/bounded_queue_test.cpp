@@ -17,6 +17,16 @@ TEST(BoundedQueue, HandsItemsOverInOrder) {
   EXPECT_FALSE(queue.pop().has_value());
 }
 
+TEST(BoundedQueue, SaysWhetherThereIsRoom) {
+  BoundedQueue<int> queue(2);
+  queue.push(1);
+  EXPECT_FALSE(queue.is_full());
+  queue.push(2);
+  EXPECT_TRUE(queue.is_full());
+  queue.pop();
+  EXPECT_FALSE(queue.is_full());
+}
+
 TEST(BoundedQueue, CloseReleasesAWaitingProducer) {
   BoundedQueue<int> queue(1);
   ASSERT_TRUE(queue.push(1));

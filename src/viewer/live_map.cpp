@@ -20,6 +20,7 @@ void LiveMap::start(protocol::Hello hello) {
   messages_.clear();
   frames_.clear();
   poses_.clear();
+  history_.clear();
   pose_revision_ = 0;
   correction_ = Sim3d();
   newest_frame_ = -1;
@@ -46,6 +47,7 @@ void LiveMap::add(LoopEvent loops) {
     entry.S_world_keyframe = pose.S_world_keyframe;
     entry.revision = pose_revision_;
   }
+  history_.add({newest_frame_, correction_, loops.poses});
   std::vector<protocol::Loop> closed;
   for (const LoopRecord& loop : loops.accepted) {
     closed.push_back(
@@ -94,6 +96,11 @@ std::vector<SharedBytes> LiveMap::next(MapCursor& cursor, std::size_t most_bytes
   }
   while (cursor.messages < messages_.size() && bytes < most_bytes) take(messages_[cursor.messages++]);
   while (cursor.frames < frames_.size() && bytes < most_bytes) take(frames_from(cursor.frames));
+  if (cursor.poses == 0 && pose_revision_ > 0) {
+    // One that has nothing gets all that came before, for its slider.
+    for (const protocol::Poses& step : history_.steps()) take(std::make_shared<const Bytes>(encode(step)));
+    cursor.poses = pose_revision_;
+  }
   if (cursor.poses < pose_revision_) take(poses_since(cursor.poses));
   for (std::size_t i = 0; i < kLatestSlots; ++i) {
     if (latest_[i].revision <= cursor.latest[i]) continue;

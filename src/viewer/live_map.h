@@ -15,6 +15,7 @@
 
 #include "io/trajectory_file.h"
 #include "ldso/observer.h"
+#include "viewer/pose_history.h"
 #include "viewer/protocol.h"
 
 namespace ldso {
@@ -61,9 +62,13 @@ class LiveMap {
   std::int64_t newest_frame() const { return newest_frame_; }
   const Sim3d& correction() const { return correction_; }
   std::size_t frames() const { return frames_.size(); }
+  const std::vector<FrameEvent>& frame_events() const { return frames_; }
   std::uint64_t pose_revision() const { return pose_revision_; }
 
  private:
+  /// Of the history: 72 bytes each.
+  static constexpr std::size_t kMostPoses = 100'000;
+
   struct PoseEntry {
     SE3d T_world_camera;  ///< Of the odometry.
     Sim3d S_world_keyframe;
@@ -82,6 +87,7 @@ class LiveMap {
   std::vector<FrameEvent> frames_;
   std::map<std::int64_t, PoseEntry> poses_;  ///< By keyframe id.
   std::uint64_t pose_revision_ = 0;
+  PoseHistory history_{kMostPoses};
   Sim3d correction_;
   std::int64_t newest_frame_ = -1;
   std::array<Latest, kLatestSlots> latest_;

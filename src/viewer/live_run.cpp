@@ -39,12 +39,15 @@ LiveRun::LiveRun(LiveRunOptions options)
   if (!options_.server) return;
   server_ = std::make_unique<Server>(
       *options_.server, map_, [this](LiveMap& map, std::size_t viewers) { tick(map, viewers); },
-      [this](protocol::Command command) { control_.command(command); });
+      [this](protocol::Command command) {
+        if (options_.has_control) control_.command(command);
+      });
 }
 
 LiveRun::~LiveRun() = default;
 
-void LiveRun::after_frame(int done, int count, const std::atomic<bool>& stop) {
+void LiveRun::after_frame(int done, int count, const std::atomic<bool>& stop, int dropped) {
+  dropped_.store(dropped);
   done_.store(done);
   count_.store(count);
   if (server_) {
@@ -59,19 +62,35 @@ void LiveRun::finish() {
   if (!server_) feed_->fetch(map_);
 }
 
-Bytes LiveRun::recording() {
-  Bytes recording;
-  const auto take = [&](LiveMap& map) {
+void LiveRun::with_map(const std::function<void(LiveMap&)>& function) {
+  const auto use = [&](LiveMap& map) {
     feed_->fetch(map);
-    update_alignment(map);
-    recording = map.snapshot();
+    function(map);
   };
   if (server_) {
-    server_->call(take);
+    server_->call(use);
   } else {
-    take(map_);
+    use(map_);
   }
+}
+
+Bytes LiveRun::recording() {
+  Bytes recording;
+  with_map([&](LiveMap& map) {
+    update_alignment(map);
+    recording = map.snapshot();
+  });
   return recording;
+}
+
+std::vector<FrameCost> LiveRun::frame_costs() {
+  std::vector<FrameCost> costs;
+  with_map([&](const LiveMap& map) {
+    for (const FrameEvent& event : map.frame_events()) {
+      if (!event.is_late) costs.push_back({event.frame.frame_id, event.frame_ms, event.points, event.exposure_ms});
+    }
+  });
+  return costs;
 }
 
 void LiveRun::tick(LiveMap& map, std::size_t viewers) {
@@ -115,6 +134,7 @@ void LiveRun::update_status(LiveMap& map, std::size_t viewers) {
     if (status.frames_per_s < 0.05f) status.frames_per_s = 0;
     status.done = done;
     status.count = static_cast<std::uint32_t>(count_.load());
+    status.dropped = static_cast<std::uint32_t>(dropped_.load());
     status.loop_candidates = static_cast<std::uint32_t>(feed_->loop_candidates());
     status.memory_mb = static_cast<float>(process_memory_mb());
     last_status_ = now;

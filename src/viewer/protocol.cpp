@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "geometry/pinhole_projection.h"
 
@@ -78,6 +79,27 @@ void put_frame(MessageWriter& out, const FrameEvent& event) {
   out.put(static_cast<std::uint8_t>(event.is_late));
   out.put(static_cast<std::uint8_t>(event.T_world_camera.has_value()));
   out.align(8);
+}
+
+SE3d get_pose(ByteReader& in) {
+  Eigen::Vector3d t;
+  Eigen::Quaterniond q;
+  for (int i = 0; i < 3; ++i) t[i] = in.get<double>();
+  for (int i = 0; i < 4; ++i) q.coeffs()[i] = in.get<double>();
+  return {SO3d(q), t};
+}
+
+Sim3d get_similarity(ByteReader& in) {
+  const SE3d T = get_pose(in);
+  return {T.rotation(), T.translation(), in.get<double>()};
+}
+
+/// As they lie in memory.
+template <class T>
+void get_all(ByteReader& in, std::size_t count, std::vector<T>& values) {
+  const std::span<const std::uint8_t> bytes = in.get_bytes(count * sizeof(T));
+  values.resize(count);
+  if (count > 0) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
 }
 
 }  // namespace
@@ -184,6 +206,7 @@ Bytes encode(const Status& status) {
   out.put(status.loop_candidates);
   out.put(status.memory_mb);
   out.put(status.frames_per_s);
+  out.put(status.dropped);
   return out.finish();
 }
 
@@ -272,6 +295,40 @@ Hello decode_hello(std::span<const std::uint8_t> payload, const std::string& nam
   for (double* x : {&hello.camera.fx, &hello.camera.fy, &hello.camera.cx, &hello.camera.cy}) *x = in.get<double>();
   hello.name = in.get_text(in.get<std::uint32_t>());
   return hello;
+}
+
+std::span<const std::uint8_t> whole(const Message& message) {
+  return {message.payload.data() - kHeaderBytes, message.payload.size() + kHeaderBytes};
+}
+
+Keyframe decode_keyframe(std::span<const std::uint8_t> payload, const std::string& name) {
+  ByteReader in(payload, name);
+  Keyframe keyframe;
+  keyframe.id = in.get<std::int64_t>();
+  keyframe.timestamp = in.get<double>();
+  keyframe.T_world_camera = get_pose(in);
+  const auto points = in.get<std::uint32_t>();
+  const auto links = in.get<std::uint32_t>();
+  get_all(in, links, keyframe.links);
+  get_all(in, points, keyframe.points);
+  get_all(in, points, keyframe.depth_stddev);
+  get_all(in, points, keyframe.intensity);
+  get_all(in, points, keyframe.is_corner);
+  return keyframe;
+}
+
+Poses decode_poses(std::span<const std::uint8_t> payload, const std::string& name) {
+  ByteReader in(payload, name);
+  Poses poses;
+  poses.at_frame = in.get<std::int64_t>();
+  poses.correction = get_similarity(in);
+  const auto count = in.get<std::uint32_t>();
+  in.get<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto id = in.get<std::int64_t>();
+    poses.poses.push_back({id, get_similarity(in)});
+  }
+  return poses;
 }
 
 std::optional<Command> decode_command(std::span<const std::uint8_t> bytes) {

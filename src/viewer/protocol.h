@@ -90,6 +90,7 @@ struct Status {
   std::uint32_t loop_candidates = 0;
   float memory_mb = 0;  ///< Of the program, now.
   float frames_per_s = 0;
+  std::uint32_t dropped = 0;  ///< Frames of a live run that came too fast.
   bool operator==(const Status&) const = default;
 };
 
@@ -124,11 +125,18 @@ struct Message {
   std::span<const std::uint8_t> payload;
 };
 
+/// With its header. The message must be one that split() has found.
+std::span<const std::uint8_t> whole(const Message& message);
+
 /// Cuts a stream into its messages; `name` is what errors call it. Throws Error if it is none.
 std::vector<Message> split(std::span<const std::uint8_t> stream, const std::string& name);
 
 /// Of a hello. Throws Error if it is damaged or of another version.
 Hello decode_hello(std::span<const std::uint8_t> payload, const std::string& name);
+
+/// Of a keyframe, of corrected poses. They throw Error if the payload is cut off.
+Keyframe decode_keyframe(std::span<const std::uint8_t> payload, const std::string& name);
+Poses decode_poses(std::span<const std::uint8_t> payload, const std::string& name);
 
 /// A page's command; nothing if it is none.
 std::optional<Command> decode_command(std::span<const std::uint8_t> bytes);

@@ -5,11 +5,6 @@
 #include "ldso/error.h"
 
 namespace ldso {
-namespace {
-
-constexpr std::size_t kHeaderBytes = 8;
-
-}  // namespace
 
 void read_recording(const std::filesystem::path& path, LiveMap& map) {
   const Bytes bytes = read_bytes(path);
@@ -22,8 +17,8 @@ void read_recording(const std::filesystem::path& path, LiveMap& map) {
   hello.has_control = false;
   map.start(hello);
   for (std::size_t i = 1; i < messages.size(); ++i) {
-    const std::uint8_t* first = messages[i].payload.data() - kHeaderBytes;
-    map.add_message(Bytes(first, messages[i].payload.data() + messages[i].payload.size()));
+    const std::span<const std::uint8_t> whole = protocol::whole(messages[i]);
+    map.add_message(Bytes(whole.begin(), whole.end()));
   }
 }
 

@@ -3,7 +3,8 @@
 
 import { apply, compose, IDENTITY } from './pose';
 import type {
-  AlignmentMessage, Frame, Hello, ImageMessage, LogLine, Loop, Message, PointArrays, Pose, StatusMessage, WindowMessage,
+  AlignmentMessage, Frame, Hello, ImageMessage, LogLine, Loop, Message, PointArrays, Pose, PosesMessage, StatusMessage,
+  WindowMessage,
 } from './protocol';
 
 export interface Keyframe {
@@ -42,6 +43,10 @@ export class MapModel {
   readonly frames: Frame[] = []; // in the order of their ids
   readonly loops: Loop[] = [];
   readonly log: LogLine[] = [];
+  /** What loop closing said, one time after the other. */
+  private readonly history: PosesMessage[] = [];
+  private applied = 0; // so much of it is what the poses are
+  private time = Infinity; // frame id, see setTime()
   truth: Float64Array | null = null;
   alignment: AlignmentMessage | null = null;
   status: StatusMessage | null = null;
@@ -73,9 +78,11 @@ export class MapModel {
         this.addKeyframe(message.id, message.pose, message.links, message.points);
         break;
       case 'poses':
-        this.correction = message.correction;
-        for (const { id, pose } of message.poses) this.setCorrected(id, pose);
-        this.changes.poses = true;
+        this.history.push(message);
+        if (this.setTime(this.time)) {
+          for (const { id } of message.poses) this.recompute(id);
+          this.changes.poses = true;
+        }
         break;
       case 'frames':
         for (const frame of message.frames) this.addFrame(frame);
@@ -107,6 +114,26 @@ export class MapModel {
         this.changes.image = message;
         break;
     }
+  }
+
+  /** Poses as loop closing had them at a frame; Infinity: as it has them now. Whether any of them is another one now. */
+  setTime(frameId: number): boolean {
+    this.time = frameId;
+    let wanted = 0;
+    while (wanted < this.history.length && this.history[wanted].atFrame <= frameId) ++wanted;
+    if (wanted === this.applied) return false;
+    if (wanted < this.applied) {
+      for (const keyframe of this.keyframes) keyframe.corrected = null;
+      this.pendingPoses.clear();
+      this.correction = IDENTITY;
+      this.applied = 0;
+    }
+    for (; this.applied < wanted; ++this.applied) {
+      const step = this.history[this.applied];
+      this.correction = step.correction;
+      for (const { id, pose } of step.poses) this.setCorrected(id, pose);
+    }
+    return true;
   }
 
   /** A keyframe's pose with loops; without loop closing that of the odometry. */
@@ -153,6 +180,8 @@ export class MapModel {
     this.keyframes.length = this.frames.length = this.loops.length = this.log.length = 0;
     this.truth = this.alignment = this.status = this.window = null;
     this.correction = IDENTITY;
+    this.history.length = this.applied = 0;
+    this.time = Infinity;
     this.pointCount = 0;
     this.keyframeById.clear();
     this.pendingPoses.clear();
@@ -180,7 +209,6 @@ export class MapModel {
     const keyframe = this.keyframeById.get(id);
     if (keyframe) keyframe.corrected = pose;
     else this.pendingPoses.set(id, pose);
-    this.recompute(id);
   }
 
   private addFrame(frame: Frame): void {

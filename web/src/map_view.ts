@@ -29,6 +29,9 @@ export interface MapViewSettings {
   follow: Follow;
 }
 
+/** What can be shown or hidden. */
+export type Switch = { [K in keyof MapViewSettings]: MapViewSettings[K] extends boolean ? K : never }[keyof MapViewSettings];
+
 export const DEFAULT_SETTINGS: MapViewSettings = {
   corrected: true, points: true, odometry: true, trajectory: true, frustums: true, keyframes: false, loops: true,
   covisibility: false, truth: true, grid: true, pointSize: 2, mostDeviation: 0.5, colorMode: 0, follow: 'free',
@@ -144,6 +147,10 @@ export class MapView {
   /** Shows the run as it was at a frame; Infinity: as it is. */
   setCutoff(frameId: number): void {
     this.cutoff = frameId;
+    if (this.model.setTime(frameId)) {
+      this.updatePoses();
+      this.updateTrajectories(0);
+    }
     this.showUpToCutoff();
     this.rebuildEdges();
   }

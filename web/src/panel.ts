@@ -2,7 +2,7 @@
 
 import type { ImageView } from './image_view';
 import type { Changes, MapModel } from './map_model';
-import type { Follow, MapView, MapViewSettings } from './map_view';
+import type { Follow, MapView, Switch } from './map_view';
 import { COLOR_MODES } from './point_cloud';
 import { Command, RunState, Tracking } from './protocol';
 import type { Timeline } from './timeline';
@@ -14,8 +14,6 @@ interface Parts {
   timeline: Timeline;
   send: (command: Command) => void;
 }
-
-type Switch = { [K in keyof MapViewSettings]: MapViewSettings[K] extends boolean ? K : never }[keyof MapViewSettings];
 
 /** Name, what the key does, color of its mark. */
 const SWITCHES: { setting: Switch; label: string; key: string; mark?: string }[] = [
@@ -88,8 +86,10 @@ export class Panel {
     const inWindow = model.window?.keyframes.filter((k) => !model.keyframe(k.id)).length ?? 0;
     set('n-keyframes', thousands(model.keyframes.length + inWindow));
     set('n-loops', thousands(model.loops.length));
-    const count = status?.count ?? 0;
-    set('n-frames', count > 0 ? `${thousands(status!.done)} / ${thousands(count)}` : thousands(model.frames.length));
+    const [done, count] = [status?.done ?? 0, status?.count ?? 0];
+    set('n-frames', count > 0 ? `${thousands(done)} / ${thousands(count)}` : thousands(Math.max(done, model.frames.length)));
+    element('dropped-row').hidden = !status?.dropped;
+    set('dropped', thousands(status?.dropped ?? 0));
     set('rate', status && status.framesPerSecond > 0 ? `${status.framesPerSecond.toFixed(1)} /s` : '–');
     set('memory', status && status.memoryMb > 0 ? `${thousands(status.memoryMb)} MB` : '–');
     set('tracked', frame ? thousands(frame.points) : '–');

@@ -131,6 +131,7 @@ export interface StatusMessage {
   loopCandidates: number;
   memoryMb: number;
   framesPerSecond: number;
+  dropped: number; // frames of a live run that came too fast
 }
 
 export interface WindowMessage {
@@ -365,7 +366,7 @@ function readMessage(type: number, r: Reader): Message | null {
     case 9:
       return {
         kind: 'status', state: r.u32(), done: r.u32(), count: r.u32(), viewers: r.u32(), loopCandidates: r.u32(),
-        memoryMb: r.f32(), framesPerSecond: r.f32(),
+        memoryMb: r.f32(), framesPerSecond: r.f32(), dropped: r.u32(),
       };
     case 10:
       return readWindow(r);

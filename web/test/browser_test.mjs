@@ -4,20 +4,15 @@
 // test hook and by the pixels of the map. Exit code 77: there is no Chromium. Pictures of each step are left in WORK.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { mkdirSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+
+import {
+  GREEN, RED, WHITE, YELLOW, collectComplaints, figures, findChromium, openBrowser, pixels, until,
+} from './browser.mjs';
 
 const [program, sequence, work, modules] = process.argv.slice(2);
-const executable = [process.env.LDSO_CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
-  .find((path) => path && existsSync(path));
-if (!executable) {
-  console.log('skipped: there is no Chromium (package chromium; LDSO_CHROMIUM names another one)');
-  process.exit(77);
-}
-const { chromium } = createRequire(resolve(modules, 'x.js'))('playwright-core');
-const PATIENCE_MS = 120_000;
+findChromium();
 const folder = join(work, 'viewer');
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
@@ -47,17 +42,7 @@ async function stop(run) {
   return await run.ended;
 }
 
-const profile = mkdtempSync(join(tmpdir(), 'ldso-chromium-'));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath: executable,
-  headless: true,
-  viewport: { width: 1440, height: 900 },
-  args: [
-    '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--disable-sync',
-  ],
-});
-context.setDefaultTimeout(PATIENCE_MS);
+const { context, close } = await openBrowser(modules);
 
 const complaints = [];
 const hosts = new Set();
@@ -65,45 +50,12 @@ let serverIsDown = false; // what the browser says of the line being down is no 
 
 async function openPage(url) {
   const page = await context.newPage();
-  page.on('console', (message) => {
-    if (!['error', 'warning'].includes(message.type()) || serverIsDown) return;
-    // What the software renderer says of reading back its own pictures.
-    if (/GPU stall due to ReadPixels/.test(message.text())) return;
-    complaints.push(message.text());
-  });
-  page.on('pageerror', (error) => complaints.push(String(error)));
+  collectComplaints(page, complaints, () => !serverIsDown);
   page.on('request', (request) => hosts.add(new URL(request.url()).host || new URL(request.url()).protocol));
   page.on('websocket', (socket) => hosts.add(new URL(socket.url()).host));
   await page.goto(url);
   return page;
 }
-const figures = (page) => page.evaluate(() => window.ldsoTest.figures());
-/** Waits until the page's figures are as wanted. */
-async function until(page, what, condition) {
-  const end = Date.now() + PATIENCE_MS;
-  for (;;) {
-    const now = await figures(page);
-    if (condition(now)) return now;
-    if (Date.now() > end) throw new Error(`${what}: not within ${PATIENCE_MS / 1000} s: ${JSON.stringify(now)}`);
-    await page.waitForTimeout(100);
-  }
-}
-/** How many pixels of the map have about this color. */
-function pixels(page, color) {
-  return page.evaluate(async ([r, g, b]) => {
-    const bitmap = await createImageBitmap(await window.ldsoTest.map.screenshot());
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-    const drawing = canvas.getContext('2d');
-    drawing.drawImage(bitmap, 0, 0);
-    const data = drawing.getImageData(0, 0, bitmap.width, bitmap.height).data;
-    let count = 0;
-    for (let i = 0; i < data.length; i += 4) {
-      if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 60) ++count;
-    }
-    return count;
-  }, color);
-}
-const RED = [255, 77, 79], YELLOW = [255, 210, 63], GREEN = [88, 214, 141], WHITE = [255, 255, 255];
 const picture = (page, name) => page.screenshot({ path: join(folder, `${name}.png`) });
 
 async function testRun() {
@@ -236,8 +188,7 @@ try {
   failure = error;
 }
 for (const child of children) if (child.exitCode === null) child.kill('SIGKILL');
-await context.close();
-rmSync(profile, { recursive: true, force: true });
+await close();
 if (failure) {
   console.error(failure);
   process.exit(1);

@@ -2,14 +2,13 @@
 //
 // Feeds the bundled page a made-up map in headless Chromium (software rendering) and turns it: prints the time until
 // everything is there, and frames per second while it turns and while the map grows.
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { join } from 'node:path';
+
+import { figures, openBrowser } from './browser.mjs';
 
 const [dist, modules, points = '2000000', keyframes = '5000'] = process.argv.slice(2);
-const executablePath = [process.env.LDSO_CHROMIUM, '/usr/bin/chromium'].find((path) => path && existsSync(path));
-const { chromium } = createRequire(resolve(modules, 'x.js'))('playwright-core');
 const POINTS = Math.round(Number(points) / Number(keyframes));
 const KEYFRAMES = Number(keyframes);
 const FRAMES_PER_KEYFRAME = 4;
@@ -73,12 +72,7 @@ function frames(i) {
   return w.finish(4);
 }
 
-const profile = mkdtempSync(join(tmpdir(), 'ldso-chromium-'));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath, headless: true, viewport: { width: 1440, height: 900 },
-  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-});
+const { context, close } = await openBrowser(modules);
 const page = await context.newPage();
 page.on('pageerror', (error) => console.log('error:', error));
 const types = { '/': 'text/html', '/app.js': 'text/javascript', '/style.css': 'text/css', '/icon.svg': 'image/svg+xml' };
@@ -99,15 +93,14 @@ await page.routeWebSocket(/stream/, async (socket) => {
   }
 });
 await page.goto('http://127.0.0.1:1/');
-const figures = () => page.evaluate(() => window.ldsoTest.figures());
 for (;;) {
-  const now = await figures();
+  const now = await figures(page);
   if (now.keyframes === KEYFRAMES) break;
   await page.waitForTimeout(200);
 }
-console.log(`${KEYFRAMES} keyframes, ${(await figures()).points} points there after ${((Date.now() - start) / 1000).toFixed(1)} s`);
+console.log(`${KEYFRAMES} keyframes, ${(await figures(page)).points} points there after ${((Date.now() - start) / 1000).toFixed(1)} s`);
 await page.waitForTimeout(2000);
-const before = await figures();
+const before = await figures(page);
 const turning = Date.now();
 await page.mouse.move(700, 450);
 await page.mouse.down();
@@ -118,7 +111,7 @@ for (let i = 0; Date.now() - turning < 5000; ++i) {
   slowest = Math.max(slowest, Date.now() - moved);
 }
 await page.mouse.up();
-const after = await figures();
+const after = await figures(page);
 console.log(`turning: ${((1000 * (after.renders - before.renders)) / (Date.now() - turning)).toFixed(1)} frames/s with ` +
   `${after.layers} of 8 layers; slowest answer to the mouse ${slowest} ms`);
 const still = Date.now();
@@ -126,6 +119,5 @@ await page.evaluate(() => window.ldsoTest.map.screenshot());
 console.log(`everything once: ${Date.now() - still} ms`);
 await page.waitForTimeout(1000);
 await page.screenshot({ path: join(tmpdir(), 'ldso-large-map.png') });
-await context.close();
-rmSync(profile, { recursive: true, force: true });
+await close();
 process.exit(0);
