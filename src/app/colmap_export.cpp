@@ -55,7 +55,7 @@ std::string write_original(const Dataset& dataset, std::int64_t frame_id, const 
     fs::copy_file(source, folder / source.filename(), fs::copy_options::overwrite_existing);
     return source.filename().string();
   }
-  const std::string name = image_name(frame_id);
+  std::string name = image_name(frame_id);
   write_grey_png(folder / name, frame.grey.view());
   return name;
 }

@@ -54,7 +54,9 @@ std::string error_tile(const RunSummary& summary) {
 void flatten(const nlohmann::json& json, const std::string& prefix,
              std::vector<std::pair<std::string, std::string>>& out) {
   for (const auto& [key, value] : json.items()) {
-    const std::string name = prefix.empty() ? key : prefix + "." + key;
+    std::string name = prefix;
+    if (!name.empty()) name += '.';
+    name += key;
     if (value.is_object()) {
       flatten(value, name, out);
     } else {
