@@ -35,7 +35,9 @@ function(ldso_install_web_modules ok)
   endif()
   message(STATUS "Fetching the viewer's libraries (npm ci)")
   file(COPY ${sources} DESTINATION ${PROJECT_BINARY_DIR}/web)
-  execute_process(COMMAND ${LDSO_NPM} ci ${options} WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/web
+  # Where the registry cannot be reached npm would try for minutes.
+  set(patience --fetch-retries=2 --fetch-retry-mintimeout=1000 --fetch-retry-maxtimeout=5000)
+  execute_process(COMMAND ${LDSO_NPM} ci ${options} ${patience} WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/web
     RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE errors TIMEOUT 300)
   if(result EQUAL 0)
     file(WRITE ${stamp} "${wanted}")
@@ -60,7 +62,7 @@ elseif(NOT LDSO_NODE OR NOT LDSO_NPM)
 endif()
 ldso_install_web_modules(LDSO_WEB_READY)
 if(NOT LDSO_WEB_READY)
-  ldso_without_viewer("npm could not fetch the libraries that web/package-lock.json names; is there a network?")
+  ldso_without_viewer("npm could not fetch the libraries that web/package-lock.json names (see above)")
   return()
 endif()
 
