@@ -14,7 +14,9 @@ if grep -rhoE '#include "[^"]+"' "$work/prefix/include" | grep -v '"ldso/'; then
   exit 1
 fi
 
-cmake -S "$here/consumer" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" \
+# A machine with Ninja alone has no make, which CMake would take by itself.
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+cmake -G "$generator" -S "$here/consumer" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" "${@:4}"
 cmake --build "$work/build"
 "$work/build/consumer"

@@ -1,7 +1,7 @@
 """viewer_attack.py URL: bad clients of a viewer whose run waits at its first frame (--view-paused).
 
-Every kind of bad client once; then the run is continued and they come again and again until the viewer is gone. The
-exit code is 0 if each was refused or held every time, and at least one round went by while the run went on.
+Every kind of bad client once; then the run goes on in steps, and they come again with each of them; then it is
+continued, and they come until the viewer is gone. The exit code is 0 if each was refused or held every time.
 """
 import random
 import socket
@@ -12,7 +12,8 @@ import urllib.parse
 
 ADDRESS = urllib.parse.urlsplit(sys.argv[1])
 TOKEN = "?" + ADDRESS.query if ADDRESS.query else ""
-CONTINUE = b"\x02"
+CONTINUE, STEP = b"\x02", b"\x03"
+ROUNDS, STEPS = 1, 20
 KEY = "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
 UPGRADE = "Connection: Upgrade\r\nUpgrade: websocket\r\n" + KEY
 PATIENCE_S = 60
@@ -145,14 +146,14 @@ def attack():
 
 attack()
 with open_stream() as page:
-    send(page, frame(CONTINUE))
+    send(page, frame(STEP))
     receive(page, b"LDSO")  # A page that from here on reads nothing more.
-    rounds = 0
+    for _ in range(ROUNDS):
+        send(page, STEPS * frame(STEP))
+        attack()
+    send(page, frame(CONTINUE))
     try:
         while True:
             attack()
-            rounds += 1
     except Gone:
         pass
-print(f"{rounds} rounds while the run went on")
-sys.exit(0 if rounds > 0 else "the run was over before the first round")

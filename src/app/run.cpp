@@ -175,10 +175,11 @@ bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
     live.after_frame(progress.done, progress.count, interrupt.flag(), progress.dropped);
   };
   live.after_frame(0, input.dataset->size(), interrupt.flag());
+  const double paused_before = live.paused_seconds();
   summary.run = input.stream ? run_live(*input.stream, summary.settings, log, options)
                              : run_sequence(*input.dataset, summary.settings, log, options);
   if (input.is_camera) summary.run.stopped = false;  // It has no other end.
-  summary.run.seconds -= live.paused_seconds();
+  summary.run.seconds -= live.paused_seconds() - paused_before;
   if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
   if (summary.run.live && summary.run.live->dropped > 0) log(LogLevel::kWarning, describe_drops(*summary.run.live));
   live.finish();

@@ -7,12 +7,12 @@
 #include <unordered_set>
 #include <utility>
 
-#include "app/format_text.h"
 #include "app/versions.h"
 #include "evaluation/report.h"
 #include "io/calibration_file.h"
 #include "io/settings_file.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 

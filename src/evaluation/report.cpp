@@ -1,60 +1,50 @@
 #include "evaluation/report.h"
 
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof(text), pattern, arguments);
-  va_end(arguments);
-  return text;
-}
-
 std::string statistics_row(const char* name, const Statistics& s) {
-  return format("%-22s %11.6f %11.6f %11.6f %11.6f %11.6f %11.6f\n", name, s.rmse, s.mean, s.median, s.stddev, s.min,
-                s.max);
+  return format_text("%-22s %11.6f %11.6f %11.6f %11.6f %11.6f %11.6f\n", name, s.rmse, s.mean, s.median, s.stddev,
+                     s.min, s.max);
 }
 
 std::string tum_mono_rows(const TumMonoError& e) {
-  return format("%-22s %11.6f m   (over all poses; start %zu, end %zu pairs)\n", "TUM-mono e_align", e.e_align,
-                e.start_pairs, e.end_pairs) +
-         format("%-22s %11.6f m\n", "TUM-mono e_rmse", e.e_rmse) +
-         format("%-22s %11.6f m\n", "TUM-mono e_t", e.e_translation) +
-         format("%-22s %11.6f deg\n", "TUM-mono e_r", e.e_rotation_deg) +
-         format("%-22s %11.6f\n", "TUM-mono e_s", e.e_scale) +
-         format("%-22s %11.6f m\n", "TUM-mono start rmse", e.start_rmse) +
-         format("%-22s %11.6f m\n", "TUM-mono end rmse", e.end_rmse);
+  return format_text("%-22s %11.6f m   (over all poses; start %zu, end %zu pairs)\n", "TUM-mono e_align", e.e_align,
+                     e.start_pairs, e.end_pairs) +
+         format_text("%-22s %11.6f m\n", "TUM-mono e_rmse", e.e_rmse) +
+         format_text("%-22s %11.6f m\n", "TUM-mono e_t", e.e_translation) +
+         format_text("%-22s %11.6f deg\n", "TUM-mono e_r", e.e_rotation_deg) +
+         format_text("%-22s %11.6f\n", "TUM-mono e_s", e.e_scale) +
+         format_text("%-22s %11.6f m\n", "TUM-mono start rmse", e.start_rmse) +
+         format_text("%-22s %11.6f m\n", "TUM-mono end rmse", e.end_rmse);
 }
 
 std::string scale_rows(const EvaluationResult& result) {
   if (!result.scale_drift) return "";
-  return format("%-22s %11.6f     (last third / first third of the path: %.6f)\n", "scale drift",
-                result.scale_drift->drift, result.scale_drift->ratio);
+  return format_text("%-22s %11.6f     (last third / first third of the path: %.6f)\n", "scale drift",
+                     result.scale_drift->drift, result.scale_drift->ratio);
 }
 
 std::string kitti_rows(const KittiDrift& drift) {
-  return format("%-22s %11.6f %%   (%zu paths of 100..800 m)\n", "KITTI t_rel", drift.translation_percent,
-                drift.segments) +
-         format("%-22s %11.6f deg/m\n", "KITTI r_rel", drift.rotation_deg_per_m);
+  return format_text("%-22s %11.6f %%   (%zu paths of 100..800 m)\n", "KITTI t_rel", drift.translation_percent,
+                     drift.segments) +
+         format_text("%-22s %11.6f deg/m\n", "KITTI r_rel", drift.rotation_deg_per_m);
 }
 
 std::string kitti_length_rows(const KittiDrift& drift) {
   std::string rows;
   for (std::size_t i = 0; i < kKittiLengths.size(); ++i) {
     if (!std::isfinite(drift.translation_percent_of_length[i])) continue;
-    rows += format("KITTI %3.0f m            %11.6f %%   %11.6f deg/m\n", kKittiLengths[i],
-                   drift.translation_percent_of_length[i], drift.rotation_deg_per_m_of_length[i]);
+    rows += format_text("KITTI %3.0f m            %11.6f %%   %11.6f deg/m\n", kKittiLengths[i],
+                        drift.translation_percent_of_length[i], drift.rotation_deg_per_m_of_length[i]);
   }
   return rows;
 }
@@ -66,10 +56,11 @@ std::string relative_rows(const EvaluationResult& result) {
 }
 
 std::string absolute_rows(const EvaluationResult& result) {
-  std::string rows = format("%-22s %11s %11s %11s %11s %11s %11s\n", "", "rmse", "mean", "median", "std", "min", "max");
+  std::string rows =
+      format_text("%-22s %11s %11s %11s %11s %11s %11s\n", "", "rmse", "mean", "median", "std", "min", "max");
   rows += statistics_row("ATE [m]", result.absolute) + relative_rows(result);
   // Where the path is known in pieces only, its length means nothing.
-  if (!result.tum_mono) rows += format("%-22s %11.6f %%\n", "ATE of path", result.ate_percent_of_path());
+  if (!result.tum_mono) rows += format_text("%-22s %11.6f %%\n", "ATE of path", result.ate_percent_of_path());
   return rows;
 }
 
@@ -146,11 +137,11 @@ void require_metric(const EvaluationResult& result, ReportMetric metric) {
 std::string result_table(const EvaluationResult& result, ReportMetric metric) {
   const bool all = metric == ReportMetric::kAll;
   std::string table;
-  table += format("%-22s %11zu     (of %zu estimated and %zu true poses)\n", "pairs", result.pairs.size(),
-                  result.estimate_poses, result.truth_poses);
-  table += format("%-22s %11.6f m\n", "path", result.path_length);
-  table += format("%-22s %11s     (scale %.6f)\n", "alignment", to_string(result.alignment).c_str(),
-                  result.S_truth_estimate.scale());
+  table += format_text("%-22s %11zu     (of %zu estimated and %zu true poses)\n", "pairs", result.pairs.size(),
+                       result.estimate_poses, result.truth_poses);
+  table += format_text("%-22s %11.6f m\n", "path", result.path_length);
+  table += format_text("%-22s %11s     (scale %.6f)\n", "alignment", to_string(result.alignment).c_str(),
+                       result.S_truth_estimate.scale());
   if (all || metric == ReportMetric::kAte) table += absolute_rows(result);
   if (all) table += scale_rows(result);
   if ((all || metric == ReportMetric::kKitti) && result.kitti_drift) table += kitti_rows(*result.kitti_drift);

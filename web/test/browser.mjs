@@ -79,3 +79,14 @@ export function pixels(page, color) {
   }, color);
 }
 export const RED = [255, 77, 79], YELLOW = [255, 210, 63], GREEN = [88, 214, 141], WHITE = [255, 255, 255];
+
+/** Ends the program: after `failure`, if there is one, with its message and exit code 1. `folder`: of the pictures. */
+export async function finish(close, folder, failure) {
+  await close();
+  if (failure) {
+    console.error(failure);
+    process.exit(1);
+  }
+  console.log(`all is well; pictures in ${folder}`);
+  process.exit(0);
+}

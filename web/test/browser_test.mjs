@@ -8,7 +8,8 @@ import { mkdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 
 import {
-  GREEN, RED, WHITE, YELLOW, collectComplaints, figures, findChromium, openBrowser, pixels, until,
+  GREEN, RED, WHITE, YELLOW, collectComplaints, figures, findChromium, finish, openBrowser, pixels,
+  until,
 } from './browser.mjs';
 
 const [program, sequence, work, modules] = process.argv.slice(2);
@@ -188,10 +189,4 @@ try {
   failure = error;
 }
 for (const child of children) if (child.exitCode === null) child.kill('SIGKILL');
-await close();
-if (failure) {
-  console.error(failure);
-  process.exit(1);
-}
-console.log(`all is well; pictures in ${folder}`);
-process.exit(0);
+await finish(close, folder, failure);

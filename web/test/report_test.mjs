@@ -7,7 +7,7 @@ import { mkdirSync, rmSync, statSync, symlinkSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-import { GREEN, RED, YELLOW, collectComplaints, figures, findChromium, openBrowser, pixels, until } from './browser.mjs';
+import { GREEN, RED, YELLOW, collectComplaints, figures, findChromium, finish, openBrowser, pixels, until } from './browser.mjs';
 
 const [program, sequence, work, modules] = process.argv.slice(2);
 findChromium();
@@ -107,10 +107,4 @@ try {
 } catch (error) {
   failure = error;
 }
-await close();
-if (failure) {
-  console.error(failure);
-  process.exit(1);
-}
-console.log(`all is well; pictures in ${folder}`);
-process.exit(0);
+await finish(close, folder, failure);

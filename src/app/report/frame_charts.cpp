@@ -8,8 +8,8 @@
 #include <numeric>
 #include <unordered_set>
 
-#include "app/format_text.h"
 #include "evaluation/svg_chart.h"
+#include "util/format_text.h"
 #include "util/median.h"
 
 namespace ldso {

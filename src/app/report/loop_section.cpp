@@ -4,9 +4,9 @@
 #include <map>
 #include <numbers>
 
-#include "app/format_text.h"
 #include "app/report/html.h"
 #include "util/base64.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <ctime>
 
-#include "app/format_text.h"
 #include "app/report/frame_charts.h"
 #include "app/report/html.h"
 #include "app/report/loop_section.h"
@@ -12,6 +11,7 @@
 #include "evaluation/trajectory_picture.h"
 #include "io/text_file.h"
 #include "util/base64.h"
+#include "util/format_text.h"
 #include "viewer/recording_limits.h"
 #include "viewer/report_script.h"
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/format_text.h"
 #include "app/report/frame_charts.h"
 #include "app/report/html.h"
 #include "app/versions.h"
 #include "io/calibration_file.h"
 #include "io/settings_file.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {

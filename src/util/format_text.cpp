@@ -1,4 +1,4 @@
-#include "app/format_text.h"
+#include "util/format_text.h"
 
 #include <cctype>
 #include <cstdarg>
