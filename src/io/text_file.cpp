@@ -1,5 +1,7 @@
 #include "io/text_file.h"
 
+#include <unistd.h>
+
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -72,7 +74,9 @@ std::string read_file(const std::filesystem::path& path) {
 
 void write_file(const std::filesystem::path& path, std::string_view content) {
   std::filesystem::path partial = path;
-  partial += ".partial";
+  // Two processes may write the same file at once (runners of one experiment): each its own, the last one stays.
+  partial += ".";
+  partial += std::to_string(getpid()).append(".partial");
   std::error_code error;
   {
     std::ofstream stream(partial, std::ios::binary | std::ios::trunc);
