@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "io/text_file.h"
 #include "ldso/error.h"
@@ -74,6 +75,27 @@ void append(std::string& text, const char* format, double value) {
   char buffer[512];
   const int length = std::snprintf(buffer, sizeof buffer, format, value);
   text.append(buffer, static_cast<std::size_t>(length));
+}
+
+/// `header`, then a line for each pose, to which `append_pose(text, pose)` adds its columns.
+template <class AppendPose>
+void write_poses(const std::filesystem::path& path, std::string header, const Trajectory& trajectory,
+                 const AppendPose& append_pose) {
+  std::string text = std::move(header);
+  for (const StampedPose& pose : trajectory) {
+    check_finite(path, pose);
+    append_pose(text, pose);
+    text += '\n';
+  }
+  write_file(path, text);
+}
+
+/// Time, position and quaternion; `value_format` begins with what separates columns.
+void append_tum_pose(std::string& text, const StampedPose& pose, const char* value_format) {
+  const Eigen::Vector3d& t = pose.T_world_camera.translation();
+  const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
+  append(text, "%.9f", pose.timestamp);
+  for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) append(text, value_format, value);
 }
 
 }  // namespace
@@ -145,53 +167,31 @@ std::vector<double> read_times(const std::filesystem::path& path) {
 }
 
 void write_tum_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
-  std::string text = "# timestamp tx ty tz qx qy qz qw (camera to world)\n";
-  for (const StampedPose& pose : trajectory) {
-    check_finite(path, pose);
-    const Eigen::Vector3d& t = pose.T_world_camera.translation();
-    const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
-    append(text, "%.9f", pose.timestamp);
-    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) append(text, " %.12g", value);
-    text += '\n';
-  }
-  write_file(path, text);
+  write_poses(path, "# timestamp tx ty tz qx qy qz qw (camera to world)\n", trajectory,
+              [](std::string& text, const StampedPose& pose) { append_tum_pose(text, pose, " %.12g"); });
+}
+
+void write_csv_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
+  write_poses(path, "timestamp,tx,ty,tz,qx,qy,qz,qw\n", trajectory,
+              [](std::string& text, const StampedPose& pose) { append_tum_pose(text, pose, ",%.12g"); });
 }
 
 void write_euroc_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
-  std::string text = "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
-  for (const StampedPose& pose : trajectory) {
-    check_finite(path, pose);
+  const char* header =
+      "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
+  write_poses(path, header, trajectory, [](std::string& text, const StampedPose& pose) {
     const Eigen::Vector3d& t = pose.T_world_camera.translation();
     const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
     text += std::to_string(std::llround(pose.timestamp * kNanosecondsPerSecond));
     for (const double value : {t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z()}) append(text, ",%.12g", value);
-    text += '\n';
-  }
-  write_file(path, text);
-}
-
-void write_csv_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
-  std::string text = "timestamp,tx,ty,tz,qx,qy,qz,qw\n";
-  for (const StampedPose& pose : trajectory) {
-    check_finite(path, pose);
-    const Eigen::Vector3d& t = pose.T_world_camera.translation();
-    const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
-    append(text, "%.9f", pose.timestamp);
-    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) append(text, ",%.12g", value);
-    text += '\n';
-  }
-  write_file(path, text);
+  });
 }
 
 void write_kitti_poses(const std::filesystem::path& path, const Trajectory& trajectory) {
-  std::string text;
-  for (const StampedPose& pose : trajectory) {
-    check_finite(path, pose);
+  write_poses(path, "", trajectory, [](std::string& text, const StampedPose& pose) {
     const Eigen::Matrix4d T = pose.T_world_camera.matrix();
     for (int i = 0; i < 12; ++i) append(text, i == 0 ? "%.12e" : " %.12e", T(i / 4, i % 4));
-    text += '\n';
-  }
-  write_file(path, text);
+  });
 }
 
 }  // namespace ldso

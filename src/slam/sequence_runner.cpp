@@ -16,10 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
 using Reader = PrefetchingReader<ReadyFrame>;
 
 const FrameRecord& process(const Dataset& dataset, Pipeline& pipeline, const Reader::Item& item) {
@@ -96,7 +92,7 @@ SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const
       continue;
     }
     run.stopped = end == PassEnd::kStopped;
-    run.seconds = milliseconds(start, Clock::now()) / 1e3;
+    run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.result = pass.finish();
     return run;
   }
