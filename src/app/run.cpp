@@ -231,9 +231,11 @@ int run(const RunArguments& a) {
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
+  // What was computed is safe before pictures read frames again.
+  write_run_files(a.out, summary, a.kitti);
   draw_loops(a, dataset, summary);
   if (!a.no_report) report(a.out, dataset, summary);
-  write_run_files(a.out, summary, dataset, a.kitti);
+  write_run_json(a.out, summary, dataset);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
   if (!summary.run.error.empty()) {

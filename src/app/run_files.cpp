@@ -75,7 +75,7 @@ void prepare_output_folder(const fs::path& folder) {
   for (const char* name : {kRunJson, kReportName}) fs::remove(folder / name);
 }
 
-void write_run_files(const fs::path& folder, const RunSummary& summary, const Dataset& dataset, bool kitti) {
+void write_run_files(const fs::path& folder, const RunSummary& summary, bool kitti) {
   write_tum_trajectory(folder / "trajectory.txt", summary.trajectory);
   write_tum_trajectory(folder / "keyframes.txt", summary.keyframes);
   fs::remove(folder / "trajectory_kitti.txt");
@@ -88,6 +88,9 @@ void write_run_files(const fs::path& folder, const RunSummary& summary, const Da
   if (summary.run.passes > 1) write_file(folder / "camera.txt", camera_file_text(summary.run.calibration));
   if (summary.run.better_calibration)
     write_file(folder / "camera_better.txt", camera_file_text(*summary.run.better_calibration));
+}
+
+void write_run_json(const fs::path& folder, const RunSummary& summary, const Dataset& dataset) {
   write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");
 }
 

@@ -16,10 +16,11 @@ void make_output_folder(const std::filesystem::path& folder);
 /// run.json of an earlier run: as long as it is missing, the files in the folder are not those of one finished run.
 void prepare_output_folder(const std::filesystem::path& folder);
 
-/// trajectory.txt, keyframes.txt, map.ply and run.json; trajectory_kitti.txt if wanted; trajectory.svg if the run was
-/// evaluated. Files of an earlier run that this one does not write are removed. run.json comes last and all at once:
-/// where it is, everything else is complete.
-void write_run_files(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset,
-                     bool kitti);
+/// trajectory.txt, keyframes.txt and map.ply; trajectory_kitti.txt if wanted; trajectory.svg if the run was evaluated.
+/// Files of an earlier run that this one does not write are removed.
+void write_run_files(const std::filesystem::path& folder, const RunSummary& summary, bool kitti);
+
+/// run.json, last and all at once: where it is, everything else is complete.
+void write_run_json(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset);
 
 }  // namespace ldso
