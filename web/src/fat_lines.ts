@@ -1,15 +1,28 @@
 // Polylines some pixels wide, of any length, of which parts are rewritten while they grow. Each vertex says whether it
-// is joined to the one before it, so that one object holds a trajectory with gaps or many separate edges.
+// is joined to the one before it, so that one object holds a trajectory with gaps or many separate edges. Vertices lie in
+// a texture from which the shader takes a segment's two: where a processor draws, an instance a segment costs ten times
+// as much.
 
 import * as THREE from 'three';
 
+import { FloatTexture, TEXEL_FUNCTION } from './float_texture';
+
+const CORNERS = 6; // of the two triangles of a segment
+
 const VERTEX = /* glsl */ `
-  attribute vec4 start; // xyz
-  attribute vec4 end; // xyz, 1 if joined to the start
+  ${TEXEL_FUNCTION}
+  uniform sampler2D vertices; // xyz, 1 if joined to the one before
   uniform vec2 viewport;
   uniform float width;
   varying float across;
+
   void main() {
+    int segment = gl_VertexID / ${CORNERS};
+    int k = gl_VertexID % ${CORNERS}; // corners 0 1 2, 2 1 3
+    int corner = k < 3 ? k : (k == 3 ? 2 : (k == 4 ? 1 : 3));
+    bool at_end = (corner & 1) == 1;
+    float side = corner < 2 ? -1.0 : 1.0;
+    vec4 start = texel(vertices, segment), end = texel(vertices, segment + 1);
     vec4 a = projectionMatrix * modelViewMatrix * vec4(start.xyz, 1.0);
     vec4 b = projectionMatrix * modelViewMatrix * vec4(end.xyz, 1.0);
     const float near = 1e-3;
@@ -22,11 +35,11 @@ const VERTEX = /* glsl */ `
     vec2 way = (b.xy / b.w - a.xy / a.w) * viewport;
     float way_length = length(way);
     vec2 along = way_length > 1e-6 ? way / way_length : vec2(1.0, 0.0);
-    vec4 here = position.x < 0.5 ? a : b;
+    vec4 here = at_end ? b : a;
     // Half a width beyond both ends, so that joints have no notch.
-    vec2 offset = vec2(-along.y, along.x) * position.y + along * (position.x * 2.0 - 1.0) * 0.5;
+    vec2 offset = vec2(-along.y, along.x) * side + along * (at_end ? 0.5 : -0.5);
     here.xy += offset * width / viewport * here.w;
-    across = position.y;
+    across = side;
     gl_Position = here;
   }
 `;
@@ -40,21 +53,19 @@ const FRAGMENT = /* glsl */ `
   }
 `;
 
-const MOST_RANGES = 64;
-
 export class FatLines {
   readonly object: THREE.Mesh;
-  private array = new Float32Array(4 * 1024);
-  private buffer!: THREE.InstancedInterleavedBuffer;
-  private readonly material: THREE.ShaderMaterial;
+  private readonly geometry = new THREE.BufferGeometry();
+  private readonly vertices = new FloatTexture();
   private count_ = 0;
   private shown = Infinity;
 
   constructor(color: THREE.ColorRepresentation, width: number, viewport: THREE.Vector2, opacity = 1) {
-    this.material = new THREE.ShaderMaterial({
+    const material = new THREE.ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       uniforms: {
+        vertices: this.vertices.uniform,
         color: { value: new THREE.Color(color) },
         opacity: { value: opacity },
         width: { value: width },
@@ -64,9 +75,9 @@ export class FatLines {
       depthWrite: false,
       side: THREE.DoubleSide,
     });
-    this.object = new THREE.Mesh(new THREE.InstancedBufferGeometry(), this.material);
+    this.object = new THREE.Mesh(this.geometry, material);
     this.object.frustumCulled = false;
-    this.allocate();
+    this.apply();
   }
 
   /** Vertices that are set. */
@@ -79,8 +90,7 @@ export class FatLines {
   }
 
   set(index: number, p: ArrayLike<number>, isJoined: boolean): void {
-    this.reserve(index + 1);
-    this.array.set([p[0], p[1], p[2], isJoined ? 1 : 0], 4 * index);
+    this.vertices.set(index, [p[0], p[1], p[2], isJoined ? 1 : 0]);
   }
   /** Adds edges between pairs of vertices. */
   addEdge(a: ArrayLike<number>, b: ArrayLike<number>): void {
@@ -88,13 +98,9 @@ export class FatLines {
     this.set(this.count_ + 1, b, true);
     this.count_ += 2;
   }
-  /** After vertices from `first` on were set. */
-  update(count: number, first = 0): void {
+  /** After vertices were set. */
+  update(count: number): void {
     this.count_ = count;
-    // What is not seen is not uploaded, and its parts would pile up: then all of it is, once.
-    if (this.buffer.updateRanges.length > MOST_RANGES) this.buffer.clearUpdateRanges();
-    else if (count > first) this.buffer.addUpdateRange(4 * first, 4 * (count - first));
-    this.buffer.needsUpdate = true;
     this.apply();
   }
   clear(): void {
@@ -108,26 +114,6 @@ export class FatLines {
   }
 
   private apply(): void {
-    (this.object.geometry as THREE.InstancedBufferGeometry).instanceCount = this.segments;
-  }
-  private reserve(vertices: number): void {
-    if (4 * (vertices + 1) <= this.array.length) return;
-    const larger = new Float32Array(Math.max(2 * this.array.length, 4 * (vertices + 1)));
-    larger.set(this.array);
-    this.array = larger;
-    this.allocate();
-  }
-  private allocate(): void {
-    this.object.geometry.dispose();
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute(
-      'position', new THREE.Float32BufferAttribute([0, -1, 0, 1, -1, 0, 0, 1, 0, 1, 1, 0], 3));
-    geometry.setIndex([0, 1, 2, 2, 1, 3]);
-    this.buffer = new THREE.InstancedInterleavedBuffer(this.array, 4, 1);
-    this.buffer.setUsage(THREE.DynamicDrawUsage);
-    geometry.setAttribute('start', new THREE.InterleavedBufferAttribute(this.buffer, 4, 0));
-    geometry.setAttribute('end', new THREE.InterleavedBufferAttribute(this.buffer, 4, 4));
-    this.object.geometry = geometry;
-    this.apply();
+    this.geometry.setDrawRange(0, CORNERS * this.segments);
   }
 }

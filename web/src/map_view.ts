@@ -46,7 +46,7 @@ const MOST_WINDOW = 64;
 const SLOW_MS = 55;
 const FAST_MS = 22;
 const REST_MS = 250;
-const LONGEST_REST_MS = 1500;
+const LONGEST_REST_MS = 700;
 
 const FRUSTUM_EDGES: [number, number][] = [[0, 1], [0, 2], [0, 3], [0, 4], [1, 2], [2, 3], [3, 4], [4, 1]];
 
@@ -103,7 +103,7 @@ export class MapView {
     const isSlow = isSoftwareRenderer();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !isSlow, powerPreference: 'high-performance' });
     this.renderer.setPixelRatio(isSlow ? 1 : Math.min(window.devicePixelRatio, 2));
-    if (isSlow) this.stats.layers = 2;
+    if (isSlow) this.stats.layers = LAYERS / 4;
     this.scene.background = new THREE.Color(COLORS.background);
     this.world.rotation.x = Math.PI;
     this.scene.add(this.world, this.grid);
@@ -260,9 +260,8 @@ export class MapView {
 
   private updatePoses(): void {
     for (const keyframe of this.model.keyframes) {
-      this.cloud.poses.set(keyframe.index, keyframe.odometry, this.model.correctedPose(keyframe));
+      this.cloud.setPoses(keyframe.index, keyframe.odometry, this.model.correctedPose(keyframe));
     }
-    this.cloud.updatePoses();
     this.updateWindow();
   }
 
@@ -276,8 +275,8 @@ export class MapView {
       this.trajectory.set(i, poses?.corrected.t ?? [0, 0, 0], joined && poses !== null);
       joined = poses !== null;
     }
-    this.odometry.update(frames.length, from);
-    this.trajectory.update(frames.length, from);
+    this.odometry.update(frames.length);
+    this.trajectory.update(frames.length);
   }
 
   private updateWindow(): void {
@@ -290,8 +289,7 @@ export class MapView {
     }
     // Those that have left the window are in the large cloud already.
     const keyframes = window.keyframes.filter((k) => !this.model.keyframe(k.id)).slice(0, MOST_WINDOW);
-    keyframes.forEach((k, i) => this.windowCloud.poses.set(i, k.pose, this.corrected(k.pose)));
-    this.windowCloud.updatePoses();
+    keyframes.forEach((k, i) => this.windowCloud.setPoses(i, k.pose, this.corrected(k.pose)));
     this.windowCloud.replace(keyframes.map((k, i) => ({ host: i, points: k.points })));
     for (const k of keyframes) this.addFrustum(this.windowFrustums, this.shownPose(k.pose), 0.11);
     this.windowFrustums.update(this.windowFrustums.count);
@@ -508,9 +506,10 @@ export class MapView {
     this.stats.renderMs += 0.3 * (Math.min(elapsed, 5000) - this.stats.renderMs);
     this.msPerLayer += 0.3 * (perLayer - this.msPerLayer);
     if (this.drawnLayers !== this.stats.layers) return; // That was one at rest.
+    const step = 1 + (this.stats.layers >> 3);
     if (elapsed > 4 * SLOW_MS) this.stats.layers = Math.max(1, this.stats.layers >> 1);
-    else if (this.stats.renderMs > SLOW_MS && this.stats.layers > 1) --this.stats.layers;
-    else if (this.stats.renderMs < FAST_MS && this.stats.layers < LAYERS) ++this.stats.layers;
+    else if (this.stats.renderMs > SLOW_MS) this.stats.layers = Math.max(1, this.stats.layers - step);
+    else if (this.stats.renderMs < FAST_MS) this.stats.layers = Math.min(LAYERS, this.stats.layers + step);
   }
 
   /** As many as can be drawn without keeping the user waiting for the next movement. */

@@ -1,18 +1,21 @@
-// Points of many keyframes. They lie in layers, each with an even share of every keyframe's points: a slow machine draws
-// fewer layers while the view moves.
+// Points of many keyframes, kept where their keyframe saw them: the poses of all keyframes are a texture, so that a
+// closed loop moves millions of points by rewriting some kilobytes. They lie in layers, each with an even share of every
+// keyframe's points: a slow machine draws fewer layers while the view moves.
 
 import * as THREE from 'three';
 
-import { PoseTexture, TEXELS, TEXTURE_WIDTH } from './pose_texture';
-import type { PointArrays } from './protocol';
+import { FloatTexture, TEXEL_FUNCTION } from './float_texture';
+import type { PointArrays, Pose } from './protocol';
 
-export const LAYERS = 8;
-const CHUNK = 1 << 15; // points
+export const LAYERS = 32;
+const CHUNK = 1 << 13; // points
+/** Of a keyframe's poses: translation and scale, rotation; of the odometry, then corrected. */
+const TEXELS = 4;
 
 export const COLOR_MODES = ['intensity', 'height', 'depth variance', 'keyframe age'] as const;
 
 const VERTEX = /* glsl */ `
-  precision highp sampler2D;
+  ${TEXEL_FUNCTION}
   attribute float host;
   attribute vec4 look; // intensity, relative deviation of the inverse depth (log scale), corner
   uniform sampler2D poses;
@@ -37,9 +40,8 @@ const VERTEX = /* glsl */ `
   }
 
   void main() {
-    int texel = int(host) * ${TEXELS} + 2 * int(which);
-    vec4 t = texelFetch(poses, ivec2(texel % ${TEXTURE_WIDTH}, texel / ${TEXTURE_WIDTH}), 0);
-    vec4 q = texelFetch(poses, ivec2((texel + 1) % ${TEXTURE_WIDTH}, texel / ${TEXTURE_WIDTH}), 0);
+    int first = int(host) * ${TEXELS} + 2 * int(which);
+    vec4 t = texel(poses, first), q = texel(poses, first + 1);
     vec3 turned = position + 2.0 * cross(q.xyz, cross(q.xyz, position) + q.w * position);
     vec3 world = t.w * turned + t.xyz;
     if (host > lastHost || look.y > mostDeviation) {
@@ -75,9 +77,9 @@ interface Chunk {
 
 export class PointCloud {
   readonly object = new THREE.Group();
-  readonly poses = new PoseTexture();
+  private readonly poses = new FloatTexture(16);
   readonly uniforms = {
-    poses: { value: this.poses.texture },
+    poses: this.poses.uniform,
     which: { value: 1 },
     firstHost: { value: 0 },
     lastHost: { value: 1e9 },
@@ -128,9 +130,9 @@ export class PointCloud {
     });
   }
 
-  /** After poses have been set. */
-  updatePoses(): void {
-    this.uniforms.poses.value = this.poses.texture;
+  setPoses(host: number, odometry: Pose, corrected: Pose): void {
+    const numbers = [odometry, corrected].flatMap((pose) => [...pose.t, pose.s, ...pose.q]);
+    this.poses.set(TEXELS * host, numbers);
   }
 
   /** Puts points i, i + LAYERS, ... into the layer's last chunk while there is room; returns where it stopped. */
