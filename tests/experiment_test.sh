@@ -196,6 +196,12 @@ for plan_and_count in tum_mono:50 tum_mono_loops:50 euroc:11 kitti:11 runtime:6 
   expect_exit 1 experiment run "${plan_and_count%:*}" -o "$WORK/missing"
   expect_output "^error: .* ${plan_and_count#*:} of ${plan_and_count#*:} sequences of the plan cannot be run"
 done
+mkdir -p "$WORK/beside/nightly" # a folder for its results
+(
+  cd "$WORK/beside"
+  expect_exit 1 experiment run nightly -o nightly
+  expect_output '^error: .* 6 of 6 sequences of the plan cannot be run'
+)
 
 echo "-- mistakes are named"
 echo 'repetitons: 3' >>"$plan"

@@ -125,7 +125,8 @@ int report_end(const RunnerReport& report, const ExperimentRunOptions& options) 
 
 ExperimentPlan load_plan(const std::string& plan, const PlanRoots& roots) {
   std::error_code error;
-  if (fs::exists(plan, error)) return read_plan(plan, roots);
+  // A folder may well have a plan's name: that of its results.
+  if (fs::exists(plan, error) && !fs::is_directory(plan, error)) return read_plan(plan, roots);
   std::vector<std::string> names;
   for (const auto& [name, text] : builtin_plans()) {
     if (name == plan) return parse_plan(text, name, fs::current_path(), roots);

@@ -47,6 +47,8 @@ const SLOW_MS = 55;
 const FAST_MS = 22;
 const REST_MS = 250;
 const LONGEST_REST_MS = 700;
+/** So many can always be drawn. */
+const FEW_POINTS = 60000;
 
 const FRUSTUM_EDGES: [number, number][] = [[0, 1], [0, 2], [0, 3], [0, 4], [1, 2], [2, 3], [3, 4], [4, 1]];
 
@@ -491,6 +493,7 @@ export class MapView {
     if (this.dirty) {
       this.dirty = false;
       this.lastChange = now;
+      this.stats.layers = Math.max(this.stats.layers, this.leastLayers());
       this.render(this.stats.layers);
     } else if (this.drawnLayers < this.layersAtRest() && now - this.lastChange > REST_MS) {
       this.render(this.layersAtRest());
@@ -507,9 +510,14 @@ export class MapView {
     this.msPerLayer += 0.3 * (perLayer - this.msPerLayer);
     if (this.drawnLayers !== this.stats.layers) return; // That was one at rest.
     const step = 1 + (this.stats.layers >> 3);
-    if (elapsed > 4 * SLOW_MS) this.stats.layers = Math.max(1, this.stats.layers >> 1);
-    else if (this.stats.renderMs > SLOW_MS) this.stats.layers = Math.max(1, this.stats.layers - step);
-    else if (this.stats.renderMs < FAST_MS) this.stats.layers = Math.min(LAYERS, this.stats.layers + step);
+    if (elapsed > 4 * SLOW_MS) this.stats.layers >>= 1;
+    else if (this.stats.renderMs > SLOW_MS) this.stats.layers -= step;
+    else if (this.stats.renderMs < FAST_MS) this.stats.layers += step;
+    this.stats.layers = Math.min(LAYERS, Math.max(1, this.stats.layers));
+  }
+
+  private leastLayers(): number {
+    return Math.min(LAYERS, Math.floor((LAYERS * FEW_POINTS) / Math.max(this.pointCount, 1)));
   }
 
   /** As many as can be drawn without keeping the user waiting for the next movement. */
