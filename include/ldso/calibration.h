@@ -18,6 +18,8 @@ struct CameraCalibration {
   int height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;
   std::array<double, 4> distortion{};
+  double readout_ms =
+      0;  ///< Rolling shutter: time from the first row to the last; negative: upwards. 0: global shutter.
 };
 
 /// How the images are resampled to a pinhole image.

@@ -36,7 +36,8 @@ struct LoopEvent {
 /// A keyframe of the sliding window as it is at the moment.
 struct WindowKeyframe {
   std::int64_t frame_id = 0;
-  SE3d T_world_camera;           ///< Of the odometry.
+  SE3d T_world_camera;  ///< Of the odometry.
+  ReadoutMotion readout = ReadoutMotion::Zero();
   std::vector<MapPoint> points;  ///< Active ones.
 };
 

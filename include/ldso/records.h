@@ -10,6 +10,10 @@
 
 namespace ldso {
 
+/// The camera's motion while a rolling shutter reads an image from its first row to its last: the pose at row v is
+/// exp((v / height - 1/2) * motion) * T_camera_world. Zero: global shutter.
+using ReadoutMotion = SE3d::Tangent;
+
 enum class TrackingState { kInitializing, kTracked, kLost };
 
 /// What the odometry says of each frame, by value. Frames without a pose have `state != kTracked`.
@@ -28,7 +32,7 @@ struct FrameRecord {
 
 /// A point of the map in its host keyframe.
 struct MapPoint {
-  float u = 0, v = 0;       ///< Pixel in the host keyframe (rectified image).
+  float u = 0, v = 0;       ///< Pixel in the host keyframe (rectified image), where it is seen.
   float idepth = 0;         ///< Inverse depth in the host [1 / map unit].
   float idepth_stddev = 0;  ///< Standard deviation of the inverse depth.
   float intensity = 0;      ///< Irradiance of the host pixel, 0..255.
@@ -49,6 +53,7 @@ struct KeyframeUpdate {
   std::int64_t frame_id = 0;
   double timestamp = 0;
   SE3d T_world_camera;
+  ReadoutMotion readout = ReadoutMotion::Zero();
   std::vector<MapPoint> points;
   std::vector<KeyframeConstraint> constraints;  ///< To the keyframes that stayed when it left, oldest first.
 };

@@ -217,6 +217,8 @@ struct SelfCalibrationSettings {
   int least_windows = 4;     ///< Windows that must have been looked at.
   double significance = 6;   ///< Least deviation from the given calibration [standard deviations].
   double least_shift = 0.5;  ///< Least deviation that is worth it, where it is largest in the image [px].
+  double least_readout_ms =
+      2;  ///< Least readout of a rolling shutter, or error of the given one, that is worth it [ms].
 
   template <class Self, class Visitor>
   static void visit_fields(Self& s, Visitor&& visit) {
@@ -226,6 +228,7 @@ struct SelfCalibrationSettings {
     visit("least_windows", s.least_windows);
     visit("significance", s.significance);
     visit("least_shift", s.least_shift);
+    visit("least_readout_ms", s.least_readout_ms);
   }
 };
 

@@ -56,7 +56,8 @@ Json self_calibration_json(const SequenceRun& run) {
             {"fy", camera.fy},
             {"cx", camera.cx},
             {"cy", camera.cy},
-            {"distortion", camera.distortion}}}};
+            {"distortion", camera.distortion},
+            {"readout_ms", camera.readout_ms}}}};
 }
 
 /// Of a camera: those that came.
@@ -153,8 +154,10 @@ std::string evaluation_text(const RunSummary& summary) {
 std::string calibration_text(const SequenceRun& run) {
   if (run.passes == 1) return "";
   const CameraCalibration& camera = run.calibration.camera;
-  return format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f (camera.txt)\n", camera.fx,
-                     camera.fy, camera.distortion[0]);
+  std::string text = format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f", camera.fx,
+                                 camera.fy, camera.distortion[0]);
+  if (camera.readout_ms != 0) text += format_text(", rolling shutter %.1f ms", camera.readout_ms);
+  return text + " (camera.txt)\n";
 }
 
 std::string live_text(const SequenceRun& run) {

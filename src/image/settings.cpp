@@ -36,6 +36,7 @@ const std::map<std::string, SettingRange, std::less<>>& ranges() {
       {"self_calibration.least_windows", {1, kHuge}},
       {"self_calibration.significance", {0, kHuge}},
       {"self_calibration.least_shift", {0, kHuge}},
+      {"self_calibration.least_readout_ms", {0, kHuge}},
       {"window.iterations", {1, 100}},
       {"window.marginalization_weight", {0, 1}},
       {"window.focal_prior", {0, kHuge}},

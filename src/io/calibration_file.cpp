@@ -15,6 +15,8 @@ namespace ldso {
 namespace {
 
 constexpr int kLargestSide = 32768;
+constexpr double kLongestReadoutMs = 200;
+constexpr const char* kFifthLine = "four lines are expected, and perhaps `rolling_shutter MS` as the fifth";
 
 struct ModelLayout {
   const char* name;
@@ -167,6 +169,16 @@ Rectification parse_rectification(const TextFile& file, const CameraCalibration&
   return rectification;
 }
 
+double parse_readout(const TextFile& file, const TextLine& line) {
+  if (to_lower(line.fields.front()) != "rolling_shutter" || line.fields.size() != 2) {
+    file.fail(line, "'" + line.text + "' is unknown here", kFifthLine);
+  }
+  const double readout_ms = file.finite_number(line, 1);
+  if (std::abs(readout_ms) <= kLongestReadoutMs) return readout_ms;
+  file.fail(line, "a readout of " + line.fields[1] + " ms is out of range",
+            "the time from the first row to the last in milliseconds is expected, at most 200");
+}
+
 }  // namespace
 
 const char* model_name(CameraModelKind kind) { return layout_of(kind).name; }
@@ -187,6 +199,7 @@ std::string camera_file_text(const Calibration& calibration) {
   }
   out << (rectification.width > 0 ? rectification.width : camera.width) << ' '
       << (rectification.height > 0 ? rectification.height : camera.height) << '\n';
+  if (camera.readout_ms != 0) out << "rolling_shutter " << camera.readout_ms << '\n';
   return out.str();
 }
 
@@ -204,10 +217,11 @@ Calibration read_camera_calibration(const std::filesystem::path& path) {
                 "1: camera model and intrinsics, 2: image width and height, 3: crop, full, none or intrinsics, "
                 "4: output width and height");
   }
-  if (file.lines().size() > 4) file.fail(file.lines()[4], "is one line too many", "four lines are expected");
+  if (file.lines().size() > 5) file.fail(file.lines()[5], "is one line too many", kFifthLine);
   Calibration calibration;
   calibration.camera = parse_camera(file, file.lines()[0]);
   parse_size(file, file.lines()[1], calibration.camera.width, calibration.camera.height);
+  if (file.lines().size() == 5) calibration.camera.readout_ms = parse_readout(file, file.lines()[4]);
   const bool relative = make_absolute(calibration.camera);
   calibration.rectification = parse_rectification(file, calibration.camera);
   calibration.description = path.string() + ": " + describe(calibration.camera, calibration.rectification) +

@@ -113,7 +113,10 @@ TEST_F(CameraFile, BadLinesAreNamedWithWhatIsExpected) {
       {"525 525 319.5 239.5 0.9\n640 480\nnone\n640 480\n", "camera.txt:3: 'none' is only possible without distortion"},
       {"525 525 319.5 239.5 0\n640 480\nnone\n320 240\n", "camera.txt:4: with 'none' the images keep their size"},
       {"525 525 319.5 239.5 0\n640 480\ncrop\n0 0\n", "camera.txt:4: '0 0' is no image size"},
-      {"525 525 319.5 239.5 0\n640 480\ncrop\n640 480\n1\n", "camera.txt:5: is one line too many"},
+      {"525 525 319.5 239.5 0\n640 480\ncrop\n640 480\n1\n", "camera.txt:5: '1' is unknown here"},
+      {"525 525 319.5 239.5 0\n640 480\ncrop\n640 480\nrolling_shutter 900\n", "camera.txt:5: a readout of 900 ms"},
+      {"525 525 319.5 239.5 0\n640 480\ncrop\n640 480\nrolling_shutter x\n", "camera.txt:5"},
+      {"525 525 319.5 239.5 0\n640 480\ncrop\n640 480\nrolling_shutter 9\n1\n", "camera.txt:6: is one line too many"},
   };
   for (const BadLine& bad : cases) {
     const std::string message = error(bad.text);
@@ -156,6 +159,7 @@ TEST_F(CameraFile, WhatIsWrittenIsReadBack) {
   for (const std::string text : {"Pinhole 500.1 501.2 320.3 240.4 0\n640 480\nnone\n640 480\n",
                                  "RadTan 500.1 501.2 320.3 240.4 -0.2 0.07 0.001 -0.002\n640 480\ncrop\n320 240\n",
                                  "FOV 500.1 501.2 320.3 240.4 0.9\n640 480\nfull\n320 240\n",
+                                 "FOV 500.1 501.2 320.3 240.4 0.9\n640 480\nfull\n320 240\nrolling_shutter 29.5\n",
                                  "KannalaBrandt 500.1 501.2 320.3 240.4 0.02 -0.01 0.003 -0.001\n640 480\n"
                                  "250 251 160.5 120.5 0\n320 240\n"}) {
     const Calibration before = read(text);
@@ -164,9 +168,15 @@ TEST_F(CameraFile, WhatIsWrittenIsReadBack) {
     EXPECT_EQ(after.camera.fx, before.camera.fx);
     EXPECT_EQ(after.camera.cy, before.camera.cy);
     EXPECT_EQ(after.camera.distortion, before.camera.distortion);
+    EXPECT_EQ(after.camera.readout_ms, before.camera.readout_ms);
     EXPECT_EQ(after.rectification.explicit_intrinsics.cx, before.rectification.explicit_intrinsics.cx);
     EXPECT_EQ(after.rectification.height, before.rectification.height);
   }
+}
+
+TEST_F(CameraFile, AFifthLineTellsTheReadoutOfARollingShutter) {
+  EXPECT_EQ(read("525 525 319.5 239.5 0\n640 480\ncrop\n640 480\nrolling_shutter 29.5\n").camera.readout_ms, 29.5);
+  EXPECT_EQ(read("525 525 319.5 239.5 0\n640 480\ncrop\n640 480\n").camera.readout_ms, 0);
 }
 
 TEST_F(CameraFile, PhotometricFilesAreUsedIfTheyAreThere) {

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "geometry/rolling_shutter.h"
+#include "mapping/keyframe_map.h"
 #include "place/orb_descriptor.h"
 
 namespace ldso {
@@ -49,6 +51,18 @@ KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen
   std::stable_sort(result.features.begin(), result.features.end(),
                    [](const MapFeature& a, const MapFeature& b) { return a.node < b.node; });
   return result;
+}
+
+void take_out_readout(const PinholeIntrinsics& camera, const ReadoutMotion& motion, std::vector<MapFeature>& features) {
+  if (motion.isZero(0)) return;
+  const double usual = median_idepth(features);
+  for (MapFeature& feature : features) {
+    const Eigen::Vector2d seen(feature.feature.u, feature.feature.v);
+    const PixelDepth still = without_readout(camera, motion, seen, feature.idepth > 0 ? feature.idepth : usual);
+    feature.feature.u = static_cast<float>(still.pixel.x());
+    feature.feature.v = static_cast<float>(still.pixel.y());
+    if (feature.idepth > 0) feature.idepth = static_cast<float>(still.idepth);
+  }
 }
 
 }  // namespace ldso

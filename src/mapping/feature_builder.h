@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/frame.h"
+#include "ldso/calibration.h"
 #include "ldso/records.h"
 #include "mapping/map_feature.h"
 #include "place/vocabulary.h"
@@ -21,5 +22,9 @@ struct KeyframeFeatures {
 /// Describes `corners` of `image` and gives those their depth that became points of the map. Ordered by node.
 KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen::Vector2f> corners,
                                 std::span<const MapPoint> points, const Vocabulary& vocabulary);
+
+/// Moves features from where a rolling shutter showed them to where a global one would have; those without depth as if
+/// they were as far as the median of the others.
+void take_out_readout(const PinholeIntrinsics& camera, const ReadoutMotion& motion, std::vector<MapFeature>& features);
 
 }  // namespace ldso

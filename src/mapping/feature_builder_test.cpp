@@ -182,5 +182,28 @@ TEST_F(FeatureBuilderTest, WithoutCornersNothing) {
   EXPECT_TRUE(built.words.empty());
 }
 
+TEST(TakeOutReadout, MovesFeaturesByTheirDepthOrTheUsualOne) {
+  const PinholeIntrinsics camera{kWidth, kHeight, 200, 200, 119.5, 89.5};
+  ReadoutMotion motion = ReadoutMotion::Zero();
+  motion[0] = 0.1;
+  std::vector<MapFeature> features(3);
+  for (MapFeature& feature : features) {
+    feature.feature.u = 100;
+    feature.feature.v = 45;
+  }
+  features[0].idepth = 0.5f;
+  features[1].idepth = 0.1f;
+  take_out_readout(camera, motion, features);
+  // A quarter of the readout before the middle the camera's coordinates were 0.025 smaller.
+  EXPECT_NEAR(features[0].feature.u, 100 + 0.025 * 0.5 * 200, 1e-4);
+  EXPECT_NEAR(features[1].feature.u, 100 + 0.025 * 0.1 * 200, 1e-4);
+  EXPECT_EQ(features[2].feature.u, features[0].feature.u);  // As far as the median.
+  EXPECT_EQ(features[2].idepth, 0);
+  EXPECT_NEAR(features[0].feature.v, 45, 1e-4);
+  const std::vector<MapFeature> before = features;
+  take_out_readout(camera, ReadoutMotion::Zero(), features);
+  EXPECT_EQ(features[1].feature.u, before[1].feature.u);
+}
+
 }  // namespace
 }  // namespace ldso

@@ -29,6 +29,8 @@ Neighbour reversed(int index, const Neighbour& neighbour) {
   return {index, T_other_this, A * neighbour.covariance * A.transpose()};
 }
 
+}  // namespace
+
 double median_idepth(const std::vector<MapFeature>& features) {
   std::vector<float> idepths;
   for (const MapFeature& feature : features) {
@@ -37,8 +39,6 @@ double median_idepth(const std::vector<MapFeature>& features) {
   if (idepths.empty()) return 0;
   return upper_median(idepths);
 }
-
-}  // namespace
 
 int KeyframeMap::add(const KeyframeUpdate& update, std::vector<MapFeature> features) {
   const int index = size();

@@ -41,6 +41,9 @@ struct OdometryChain {
   double length = 0;                        ///< Of the way [map units].
 };
 
+/// Of the features with depth [1 / map unit]; 0 if there are none.
+double median_idepth(const std::vector<MapFeature>& features);
+
 class KeyframeMap {
  public:
   /// Adds a keyframe with its constraints to others, which may come later; returns its index. Throws Error if its

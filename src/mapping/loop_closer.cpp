@@ -60,12 +60,14 @@ void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector
   {
     const StageTimer stage(times_, "loops/describe");
     features = build_features(image, corners, update.points, *vocabulary_);
+    take_out_readout(camera, update.readout, features.features);
   }
-  add(update, std::move(features), camera, &image);
+  const CurrentImage current{image, update.readout};
+  add(update, std::move(features), camera, &current);
 }
 
 void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera,
-                     const Image<Texel>* image) {
+                     const CurrentImage* current) {
   const int index = map_.add(update, std::move(features.features));
   place(index);
   std::vector<LoopCandidate> candidates;
@@ -77,7 +79,7 @@ void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, co
   if (index >= last_accepted_ + settings_.spacing) {
     const StageTimer stage(times_, "loops/verify");
     for (const LoopCandidate& candidate : candidates) {
-      if (verify(index, candidate, camera, image)) break;
+      if (verify(index, candidate, camera, current)) break;
     }
   }
   map_.forget_depthless(index);
@@ -96,9 +98,9 @@ void LoopCloser::place(int index) {
 }
 
 bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera,
-                        const Image<Texel>* image) {
+                        const CurrentImage* current) {
   LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_.verification);
-  if (v.accepted && image != nullptr) sharpen(candidate.index, camera, *image, v);
+  if (v.accepted && current != nullptr) sharpen(candidate.index, camera, *current, v);
   records_.push_back(make_record(map_, index, candidate, v));
   if (!v.accepted) return false;
   LoopRecord& record = records_.back();
@@ -112,10 +114,10 @@ bool LoopCloser::verify(int index, const LoopCandidate& candidate, const Pinhole
   return decide(std::move(hypothesis));
 }
 
-void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const Image<Texel>& image,
+void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const CurrentImage& current,
                          LoopVerification& verification) const {
   const std::optional<Sim3Estimate> sharp =
-      sharpen_loop(map_, candidate, camera, image, verification, settings_.sharpening);
+      sharpen_loop(map_, candidate, camera, current, verification, settings_.sharpening);
   if (!sharp) return;
   const auto uncertainty = sim3_uncertainty(sharp->information);
   if (!uncertainty) return;

@@ -51,7 +51,7 @@ class LoopCloser {
 
   /// The same with features that were built before. Without an image loops stay as sharp as their corners.
   void add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera,
-           const Image<Texel>* image = nullptr);
+           const CurrentImage* current = nullptr);
 
   /// Takes all loops into account; the last keyframe stays where it is.
   void finish();
@@ -85,9 +85,9 @@ class LoopCloser {
   /// A first corrected pose: that of the keyframe before it, with the odometry's step.
   void place(int index);
   /// Whether the candidate stands as the place of the keyframe, for now or for good.
-  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera, const Image<Texel>* image);
+  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera, const CurrentImage* current);
   /// The similarity from grey levels instead of corners, if they agree on one.
-  void sharpen(int candidate, const PinholeIntrinsics& camera, const Image<Texel>& image,
+  void sharpen(int candidate, const PinholeIntrinsics& camera, const CurrentImage& current,
                LoopVerification& verification) const;
   /// Why drift cannot explain it; empty if it can.
   std::string contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;

@@ -30,10 +30,16 @@ struct LoopSharpenerSettings {
       .max_pixel_variance_factor = 25, .max_robust_rounds = 1, .max_inlier_rounds = 4, .max_iterations = 5};
 };
 
-/// S_current_candidate from the patches of the candidate's local map in `image`, level 0 of the current keyframe.
+/// Level 0 of the current keyframe, and how its camera moved meanwhile.
+struct CurrentImage {
+  const Image<Texel>& image;
+  ReadoutMotion readout = ReadoutMotion::Zero();
+};
+
+/// S_current_candidate from the patches of the candidate's local map in the current image.
 /// `loop`: what verify_loop() accepted. Nothing if too few patches are found or agree.
 std::optional<Sim3Estimate> sharpen_loop(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
-                                         const Image<Texel>& image, const LoopVerification& loop,
+                                         const CurrentImage& current, const LoopVerification& loop,
                                          const LoopSharpenerSettings& settings = {});
 
 }  // namespace ldso

@@ -92,7 +92,7 @@ class LoopSharpenerTest : public testing::Test {
   }
 
   std::optional<Sim3Estimate> sharpen(const LoopVerification& loop) const {
-    return sharpen_loop(map_, kCandidate, camera(), current_image_, loop);
+    return sharpen_loop(map_, kCandidate, camera(), {current_image_}, loop);
   }
 };
 

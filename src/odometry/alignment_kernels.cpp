@@ -39,10 +39,32 @@ HWY_INLINE V load_some(const float* p, int count) {
   return hn::Load(d, tail);
 }
 
+/// Moves normalized coordinates to where a rolling shutter shows them (see geometry/rolling_shutter.h).
+HWY_INLINE void add_readout(const AlignmentWarp& w, V idepth, V& x, V& y) {
+  const Block d;
+  const auto set = [&](float value) { return hn::Set(d, value); };
+  const float* r = w.rotation;
+  const V vx = hn::MulAdd(set(w.translation[0]), idepth, hn::NegMulAdd(set(r[2]), y, set(r[1])));
+  const V vy = hn::MulAdd(set(w.translation[1]), idepth, hn::MulSub(set(r[2]), x, set(r[0])));
+  const V vz = hn::MulAdd(set(w.translation[2]), idepth, hn::MulSub(set(r[0]), y, hn::Mul(set(r[1]), x)));
+  const V dx = hn::NegMulAdd(x, vz, vx), dy = hn::NegMulAdd(y, vz, vy);
+  const float per_row = 1.0f / static_cast<float>(w.height);
+  const V still = hn::MulAdd(set(w.fy * per_row), y, set(w.cy * per_row - 0.5f));
+  const V time = hn::Div(still, hn::Max(hn::NegMulAdd(set(w.fy * per_row), dy, set(1.0f)), set(0.5f)));
+  x = hn::MulAdd(time, dx, x);
+  y = hn::MulAdd(time, dy, y);
+}
+
+HWY_INLINE bool is_rolling(const AlignmentWarp& w) {
+  return std::any_of(w.translation, w.translation + 3, [](float v) { return v != 0; }) ||
+         std::any_of(w.rotation, w.rotation + 3, [](float v) { return v != 0; });
+}
+
 HWY_INLINE void warp_block(const AlignmentPoints& points, int begin, int count, const AlignmentWarp& w,
                            BlockBuffer& buffer) {
   const Block d;
   const V one = hn::Set(d, 1.0f);
+  const bool rolling = is_rolling(w);
   for (int i = 0; i < kBlock; i += static_cast<int>(hn::Lanes(d))) {
     const int left = std::max(0, count - i);
     const int at = std::min(begin + i, points.size() - 1);
@@ -56,8 +78,9 @@ HWY_INLINE void warp_block(const AlignmentPoints& points, int begin, int count, 
     };
     const V z = row(2);
     const V inverse_z = hn::Div(one, z);
-    const V x = hn::Mul(row(0), inverse_z);
-    const V y = hn::Mul(row(1), inverse_z);
+    V x = hn::Mul(row(0), inverse_z);
+    V y = hn::Mul(row(1), inverse_z);
+    if (rolling) add_readout(w, hn::Mul(idepth, inverse_z), x, y);
     const V pu = hn::MulAdd(hn::Set(d, w.fx), x, hn::Set(d, w.cx));
     const V pv = hn::MulAdd(hn::Set(d, w.fy), y, hn::Set(d, w.cy));
     const V new_idepth = hn::Mul(idepth, inverse_z);
@@ -158,12 +181,25 @@ AlignmentSums align_points(const AlignmentPoints& points, int begin, int end, co
 
 namespace {
 
+void add_readout_reference(const AlignmentWarp& w, float idepth, float& x, float& y) {
+  const float *t = w.translation, *r = w.rotation;
+  const float vx = r[1] - r[2] * y + t[0] * idepth, vy = r[2] * x - r[0] + t[1] * idepth;
+  const float vz = r[0] * y - r[1] * x + t[2] * idepth;
+  const float dx = vx - x * vz, dy = vy - y * vz;
+  const auto height = static_cast<float>(w.height);
+  const float time = ((w.fy * y + w.cy) / height - 0.5f) / std::max(1 - w.fy * dy / height, 0.5f);
+  x += time * dx;
+  y += time * dy;
+}
+
 void add_point_reference(const AlignmentPoints& points, int i, const AlignmentWarp& w, AlignmentSums& sums) {
   float p[3];
   for (int r = 0; r < 3; ++r) {
     p[r] = w.RKi[3 * r] * points.u[i] + w.RKi[3 * r + 1] * points.v[i] + w.RKi[3 * r + 2] + w.t[r] * points.idepth[i];
   }
-  const float x = p[0] / p[2], y = p[1] / p[2], idepth = points.idepth[i] / p[2];
+  const float idepth = points.idepth[i] / p[2];
+  float x = p[0] / p[2], y = p[1] / p[2];
+  add_readout_reference(w, idepth, x, y);
   const float u = w.fx * x + w.cx, v = w.fy * y + w.cy;
   const bool inside =
       p[2] > 1e-4f && u > 1 && v > 1 && u < static_cast<float>(w.width) - 2 && v < static_cast<float>(w.height) - 2;

@@ -25,6 +25,8 @@ struct AlignmentWarp {
   float fx = 0, fy = 0, cx = 0, cy = 0;
   float RKi[9] = {};  ///< R K^-1, row-major, reference to new frame.
   float t[3] = {};
+  /// Motion of the new camera while its image was read [map units, rad]; zero: global shutter.
+  float translation[3] = {}, rotation[3] = {};
   float factor = 1, offset = 0;  ///< I_new = factor * I_ref + offset.
   float ref_b = 0;               ///< b of the reference.
   float huber = 9;               ///< [grey levels]

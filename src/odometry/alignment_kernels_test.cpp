@@ -60,6 +60,11 @@ AlignmentWarp random_warp(const Image<Texel>& image, bool far, std::mt19937& ran
   return warp;
 }
 
+void add_random_readout(AlignmentWarp& warp, std::mt19937& random) {
+  for (float& x : warp.translation) x = random_float(random, -0.05, 0.05);
+  for (float& x : warp.rotation) x = random_float(random, -0.05, 0.05);
+}
+
 /// Index of the product of variables a <= b.
 int product_index(int a, int b) {
   int k = 0;
@@ -133,6 +138,23 @@ TEST_P(AlignmentKernels, MatchReferenceOnRangesAndFarMotions) {
   EXPECT_GT(in_view, 1000);
   EXPECT_LT(in_view, 40 * 300);
   EXPECT_GT(saturated, 300);
+}
+
+TEST_P(AlignmentKernels, MatchReferenceWithARollingShutter) {
+  float in_view = 0;
+  for (int round = 0; round < 20; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    const Image<Texel> image = random_texels(63, 47, 0.02, random_);
+    const AlignmentPoints points = random_points(203, random_);
+    AlignmentWarp warp = random_warp(image, false, random_);
+    const float still = align_points_reference(points, 0, 203, warp).energy;
+    add_random_readout(warp, random_);
+    const AlignmentSums expected = align_points_reference(points, 0, 203, warp);
+    expect_same(align_points(points, 0, 203, warp), expected);
+    EXPECT_NE(expected.energy, still);
+    in_view += expected.count;
+  }
+  EXPECT_GT(in_view, 1000);
 }
 
 TEST_P(AlignmentKernels, SaturatedResidualsCountWithTheCutoffsEnergyOnly) {

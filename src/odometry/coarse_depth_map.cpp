@@ -85,10 +85,10 @@ AlignmentPoints collect(const DepthGrid& grid, const Image<Texel>& image) {
 
 /// Where `point` of `host` lies in the newest keyframe at the current estimate.
 bool project_sample(const PatternWarp& warp, const ActivePoint& point, DepthSample& sample) {
+  const PixelWarp w = warp_at(warp, point.u, point.v, point.idepth);
   float p[3];
   for (int r = 0; r < 3; ++r) {
-    p[r] =
-        warp.KRKi[3 * r] * point.u + warp.KRKi[3 * r + 1] * point.v + warp.KRKi[3 * r + 2] + warp.Kt[r] * point.idepth;
+    p[r] = w.KRKi[3 * r] * point.u + w.KRKi[3 * r + 1] * point.v + w.KRKi[3 * r + 2] + w.Kt[r] * point.idepth;
   }
   if (!(p[2] > 0)) return false;
   sample.u = p[0] / p[2];
@@ -106,7 +106,9 @@ CoarseDepthMap make_coarse_depth_map(const Window& window) {
     PatternWarp warp;
     const bool own = host.get() == &newest;
     if (!own) {
-      warp = make_warp(newest.state.T_c_w() * host->state.T_c_w().inverse(), window.camera, {}, newest.image());
+      const SE3d T_newest_host = newest.state.T_c_w() * host->state.T_c_w().inverse();
+      warp = make_warp(T_newest_host, window.camera, {}, newest.image());
+      add_readout(T_newest_host, window.camera, window.readout(*host), window.readout(newest), warp);
     }
     for (const ActivePoint& point : host->points) {
       const float weight = std::sqrt(1e-3f * std::max(point.idepth_hessian, 1e-3f));

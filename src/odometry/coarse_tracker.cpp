@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/rolling_shutter.h"
+
 namespace ldso {
 namespace {
 
@@ -25,12 +27,33 @@ constexpr int kLeastPoints = 10;
 using Matrix8 = Eigen::Matrix<double, kAlignmentDof, kAlignmentDof>;
 using Vector8 = Eigen::Matrix<double, kAlignmentDof, 1>;
 
+/// Moves the points of the reference to where a global shutter would have shown them.
+void take_out_readout(const PinholeIntrinsics& full, const ReadoutMotion& motion, CoarseDepthMap& map) {
+  if (motion.isZero(0)) return;
+  for (std::size_t level = 0; level < map.levels.size(); ++level) {
+    const PinholeIntrinsics camera = level_intrinsics(full, static_cast<int>(level));
+    AlignmentPoints& points = map.levels[level];
+    for (int i = 0; i < points.size(); ++i) {
+      const PixelDepth still = without_readout(camera, motion, {points.u[i], points.v[i]}, points.idepth[i]);
+      points.u[i] = static_cast<float>(still.pixel.x());
+      points.v[i] = static_cast<float>(still.pixel.y());
+      points.idepth[i] = static_cast<float>(still.idepth);
+    }
+  }
+}
+
 }  // namespace
 
 struct CoarseTracker::Estimate {
   SE3d T_new_ref;
   Brightness brightness;
   BrightnessPrior prior;
+  PreviousFrame previous;
+
+  ReadoutMotion readout() const {
+    if (previous.readout_share == 0) return ReadoutMotion::Zero();
+    return previous.readout_share * (T_new_ref * previous.T_previous_ref.inverse()).log();
+  }
 };
 
 struct CoarseTracker::LevelSystem {
@@ -48,6 +71,7 @@ void CoarseTracker::set_reference(const Window& window) {
   const Keyframe& newest = *window.keyframes.back();
   map_ = make_coarse_depth_map(window);
   camera_ = window.intrinsics();
+  take_out_readout(camera_, window.readout(newest), map_);
   ref_brightness_ = newest.state.brightness();
   ref_exposure_ = newest.frame->exposure_ms;
 }
@@ -64,6 +88,7 @@ CoarseTracker::LevelSystem CoarseTracker::evaluate(const PreparedFrame& frame, i
   const Eigen::Matrix3d RKi = estimate.T_new_ref.rotation_matrix() * Ki;
   const BrightnessTransfer transfer =
       brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, estimate.brightness);
+  const ReadoutMotion readout = estimate.readout();
   AlignmentWarp warp{image.data(),
                      image.width(),
                      image.height(),
@@ -71,6 +96,8 @@ CoarseTracker::LevelSystem CoarseTracker::evaluate(const PreparedFrame& frame, i
                      static_cast<float>(camera.fy),
                      static_cast<float>(camera.cx),
                      static_cast<float>(camera.cy),
+                     {},
+                     {},
                      {},
                      {},
                      static_cast<float>(transfer.factor),
@@ -81,6 +108,8 @@ CoarseTracker::LevelSystem CoarseTracker::evaluate(const PreparedFrame& frame, i
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) warp.RKi[3 * r + c] = static_cast<float>(RKi(r, c));
     warp.t[r] = static_cast<float>(estimate.T_new_ref.translation()[r]);
+    warp.translation[r] = static_cast<float>(readout[r]);
+    warp.rotation[r] = static_cast<float>(readout[3 + r]);
   }
   const AlignmentPoints& points = map_.levels[level];
   std::vector<AlignmentSums> sums(ThreadPool::chunk_count(points.size(), kChunkSize));
@@ -125,7 +154,8 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
     if (!step.allFinite()) break;
     const Estimate tried{SE3d::exp(step.head<6>()) * estimate.T_new_ref,
                          {estimate.brightness.a + step[6], estimate.brightness.b + step[7]},
-                         estimate.prior};
+                         estimate.prior,
+                         estimate.previous};
     const LevelSystem next = evaluate(frame, level, tried, cutoff);
     if (next.mean() < system.mean()) {
       estimate = tried;
@@ -142,8 +172,9 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
 }
 
 AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
-                                     const BrightnessPrior& prior, const std::vector<double>& limits) const {
-  Estimate estimate{T_new_ref, brightness, prior};
+                                     const BrightnessPrior& prior, const std::vector<double>& limits,
+                                     const PreviousFrame& previous) const {
+  Estimate estimate{T_new_ref, brightness, prior, previous};
   AlignmentResult result;
   const int levels = static_cast<int>(map_.levels.size());
   result.level_rmse.assign(levels, std::numeric_limits<double>::quiet_NaN());

@@ -23,6 +23,12 @@ struct AlignmentResult {
   double rmse() const { return level_rmse.empty() ? 0.0 : level_rmse.front(); }
 };
 
+/// The frame before the new one, for the motion during the readout of a rolling shutter.
+struct PreviousFrame {
+  SE3d T_previous_ref;
+  double readout_share = 0;  ///< The readout, in units of the time between both frames; 0: global shutter.
+};
+
 class CoarseTracker {
  public:
   CoarseTracker(const TrackingSettings& settings, ThreadPool& pool) : settings_(settings), pool_(pool) {}
@@ -33,7 +39,8 @@ class CoarseTracker {
   /// Aligns `frame` starting from one hypothesis; `prior` holds its brightness. Gives up at the first level that is
   /// worse than `limits` (root mean energies by level, finest first; empty: no limits) times the setting `good_ratio`.
   AlignmentResult align(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
-                        const BrightnessPrior& prior, const std::vector<double>& limits) const;
+                        const BrightnessPrior& prior, const std::vector<double>& limits,
+                        const PreviousFrame& previous = {}) const;
 
   /// Pixel motion and brightness change of an aligned frame.
   FrameMotion motion(const PreparedFrame& frame, const AlignmentResult& result) const;

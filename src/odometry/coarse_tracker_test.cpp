@@ -67,6 +67,27 @@ TEST_F(CoarseTrackerTest, StaysWhereNothingMoved) {
   EXPECT_GT(result.in_view, 0.99);
 }
 
+/// Both cameras move on as they did between them while a rolling shutter reads their images.
+TEST_F(CoarseTrackerTest, TakesTheReadoutOfARollingShutterOutOfBothImages) {
+  constexpr double kShare = 0.8;  // Of the time between both.
+  const ReadoutMotion readout = kShare * T_new_ref_.log();
+  const auto reference = scene_->render(0, test::path_pose(0), 1, 0, readout);
+  const auto moved = scene_->render(1, T_new_ref_ * test::path_pose(0), 1, 0, readout);
+  Window window = test::empty_window(scene_->camera());
+  window.readout_s = kShare;
+  Keyframe& keyframe = test::add_keyframe(window, reference, test::path_pose(0));
+  keyframe.velocity = T_new_ref_.log();
+  test::add_points(window, keyframe, *scene_, test::path_pose(0), 6);
+  tracker_.set_reference(window);
+  const AlignmentResult result = tracker_.align(*moved, SE3d(), {}, {}, {}, {SE3d(), kShare});
+  const AlignmentResult blind = tracker_.align(*moved, SE3d(), {}, {}, {});
+  ASSERT_TRUE(result.good && blind.good);
+  const auto error = [&](const AlignmentResult& r) { return (r.T_new_ref * T_new_ref_.inverse()).log().norm(); };
+  EXPECT_LT(error(result), 1.5e-3);
+  EXPECT_GT(error(blind), 3 * error(result));
+  EXPECT_LT(result.rmse(), 0.7 * blind.rmse());
+}
+
 TEST_F(CoarseTrackerTest, FindsAKnownMotionFromRest) {
   const AlignmentResult result = tracker_.align(*moved_, SE3d(), {}, {}, {});
   expect_motion(result, T_new_ref_);

@@ -167,8 +167,12 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
   }
 }
 
-TraceStatus EpipolarTracer::trace(ImmaturePoint& point, const PatternWarp& warp) const {
+TraceStatus EpipolarTracer::trace(ImmaturePoint& point, const PatternWarp& pair) const {
   if (point.status == TraceStatus::kOutOfView) return point.status;
+  PatternWarp warp = pair;
+  // With a rolling shutter the line is that of the row which shows the middle of the interval.
+  const float idepth = std::isfinite(point.idepth_max) ? 0.5f * (point.idepth_min + point.idepth_max) : 0.0f;
+  static_cast<PixelWarp&>(warp) = warp_at(pair, point.u, point.v, idepth);
   Segment segment;
   if (!find_segment(point, warp, segment, point.status)) return point.status;
   // The plane of the pattern turns with the view.

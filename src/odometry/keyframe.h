@@ -36,6 +36,7 @@ struct Keyframe {
   std::shared_ptr<const PreparedFrame> frame;
   int index = 0;  ///< Position in the window, oldest first.
   FrameState state;
+  SE3d::Tangent velocity = SE3d::Tangent::Zero();  ///< Of T_c_w, on its left, as tracking saw it [map units/s, rad/s].
   FrameVector delta_backup = FrameVector::Zero();
   FrameVector prior = FrameVector::Zero();            ///< Precision of a diagonal prior around `prior_mean`.
   FrameVector prior_mean = FrameVector::Zero();       ///< In the coordinates of `state.delta`.

@@ -20,11 +20,21 @@ constexpr std::size_t kMostWaitingFrames = 30;
 /// Iterations while the window is young: its depths are still rough.
 constexpr int kFirstIterations = 20;
 constexpr int kSecondIterations = 15;
+/// No image is read for longer than until the next; timestamps may waver.
+constexpr double kLargestReadoutShare = 2;
+
+/// Zero if the times say nothing.
+SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
+  const SE3d::Tangent velocity = motion.log() / seconds;
+  return velocity.allFinite() ? velocity : SE3d::Tangent(SE3d::Tangent::Zero());
+}
 
 }  // namespace
 
-Odometry::Odometry(const PinholeIntrinsics& camera, bool calibrated, const Settings& settings, ThreadPool& pool)
+Odometry::Odometry(const PinholeIntrinsics& camera, double readout_s, bool calibrated, const Settings& settings,
+                   ThreadPool& pool)
     : camera_(camera),
+      readout_s_(readout_s),
       calibrated_(calibrated),
       settings_(settings),
       pool_(pool),
@@ -77,6 +87,8 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
   start_window(start, first);
   const SE3d T_scaled(start.T_current_first.rotation(), start.T_current_first.translation() * start_scale_);
   const SE3d T_c_w = T_scaled * newest().state.T_c_w();
+  velocity_ = newest().velocity = velocity_of(T_scaled, frame->timestamp - first->timestamp);
+  last_time_ = frame->timestamp;
   if (!make_keyframe(frame, T_c_w, {start.a, start.b}, output)) {
     waiting_.clear();
     restart("the first two keyframes do not fit together", output);
@@ -102,6 +114,7 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
   const SE3d::Tangent motion = (first.state.T_c_w() * last.state.T_c_w().inverse()).log();
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, last.id() - first.id()));
   SE3d T_frame_ref;
+  double time = last.frame->timestamp;
   Brightness brightness = last.state.brightness();
   while (!waiting_.empty()) {
     const std::shared_ptr<const PreparedFrame> frame = waiting_.back();
@@ -117,9 +130,11 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
       continue;
     }
     const double share = static_cast<double>(last.id() - frame->id) / steps;
-    const AlignmentResult result = align_from({T_frame_ref, SE3d::exp(share * motion)}, *frame, brightness);
+    const AlignmentResult result = align_from({T_frame_ref, SE3d::exp(share * motion)}, *frame, brightness,
+                                              previous_frame(frame->timestamp, time, T_frame_ref));
     if (!result.good || result.in_view < settings_.tracking.least_in_view) continue;
     T_frame_ref = result.T_new_ref;
+    time = frame->timestamp;
     brightness = result.brightness;
     record.keyframe_id = last.id();
     record.T_keyframe_frame = T_frame_ref.inverse();
@@ -130,11 +145,23 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
   }
 }
 
+PreviousFrame Odometry::previous_frame(double time, double previous_time, const SE3d& T_previous_ref) const {
+  const double share = readout_s_ / (time - previous_time);
+  return {T_previous_ref, std::abs(share) < kLargestReadoutShare ? share : 0};
+}
+
+void Odometry::note_motion(const PreparedFrame& frame) {
+  velocity_ = velocity_of(T_last_previous_, frame.timestamp - last_time_);
+  // What is known before and after the time of a keyframe tells its velocity better than one of both.
+  if (newest().frame->timestamp == last_time_) newest().velocity = 0.5 * (newest().velocity + velocity_);
+  last_time_ = frame.timestamp;
+}
+
 AlignmentResult Odometry::align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
-                                     const Brightness& brightness) {
+                                     const Brightness& brightness, const PreviousFrame& previous) {
   AlignmentResult best;
   for (const SE3d& start : starts) {
-    const AlignmentResult result = tracker_.align(frame, start, brightness, brightness_prior(frame), {});
+    const AlignmentResult result = tracker_.align(frame, start, brightness, brightness_prior(frame), {}, previous);
     if (!result.good || !(result.rmse() <= settings_.tracking.lost_rmse)) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
   }
@@ -145,6 +172,7 @@ void Odometry::start_window(const Initialization& start, const std::shared_ptr<c
   window_ = Window();
   window_.width = camera_.width;
   window_.height = camera_.height;
+  window_.readout_s = readout_s_;
   window_.camera << camera_.fx, camera_.fy, camera_.cx, camera_.cy;
   window_.camera_lin = window_.camera;
   window_.camera_prior << settings_.window.focal_prior, settings_.window.focal_prior, settings_.window.center_prior,
@@ -171,11 +199,13 @@ void Odometry::start_window(const Initialization& start, const std::shared_ptr<c
 
 AlignmentResult Odometry::align(const PreparedFrame& frame) {
   const StageTimer timer(times_, "track");
+  const PreviousFrame previous = previous_frame(frame.timestamp, last_time_, T_last_ref_);
   AlignmentResult best;
   for (const SE3d& pose : motion_hypotheses(T_last_ref_, T_last_previous_)) {
     // Only what beats the best so far is of interest.
     const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
-    const AlignmentResult result = tracker_.align(frame, pose, last_brightness_, brightness_prior(frame), limits);
+    const AlignmentResult result =
+        tracker_.align(frame, pose, last_brightness_, brightness_prior(frame), limits, previous);
     if (!result.good || !std::isfinite(result.rmse()) || result.rmse() > settings_.tracking.lost_rmse) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
     const bool as_good_as_ever = last_rmse_.empty() || best.rmse() < settings_.tracking.good_ratio * last_rmse_.front();
@@ -201,6 +231,7 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
   if (first_rmse_ <= 0) first_rmse_ = result.rmse();
   T_last_previous_ = result.T_new_ref * T_last_ref_.inverse();
   T_last_ref_ = result.T_new_ref;
+  note_motion(*frame);
   last_brightness_ = result.brightness;
   output.frame.state = TrackingState::kTracked;
   output.frame.keyframe_id = newest().id();
@@ -253,8 +284,9 @@ void Odometry::trace_immature(const PreparedFrame& frame, const SE3d& T_c_w, con
   for (auto& keyframe : window_.keyframes) {
     const BrightnessTransfer transfer =
         brightness_transfer(keyframe->frame->exposure_ms, keyframe->state.brightness(), frame.exposure_ms, brightness);
-    warps.push_back(
-        make_warp(T_c_w * keyframe->state.T_c_w().inverse(), window_.camera, transfer, frame.pyramid.levels.front()));
+    const SE3d T_frame_host = T_c_w * keyframe->state.T_c_w().inverse();
+    warps.push_back(make_warp(T_frame_host, window_.camera, transfer, frame.pyramid.levels.front()));
+    add_readout(T_frame_host, window_.camera, window_.readout(*keyframe), readout_s_ * velocity_, warps.back());
     for (ImmaturePoint& point : keyframe->immature) jobs.push_back({&point, keyframe->index});
   }
   pool_.for_chunks(static_cast<int>(jobs.size()), 256, [&](int, int begin, int end) {
@@ -290,6 +322,7 @@ bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, 
                              const Brightness& brightness, OdometryOutput& output) {
   const StageTimer timer(times_, "keyframe");
   Keyframe& keyframe = add_keyframe(frame, T_c_w, brightness);
+  keyframe.velocity = velocity_;
   flag_leaving(settings_.keyframes, window_);
   {
     const StageTimer stage(times_, "keyframe/activate");

@@ -32,9 +32,11 @@ struct OdometryOutput {
 
 class Odometry {
  public:
-  /// `camera`: of the prepared frames. `calibrated`: whether intensities are irradiances. `pool` must outlive this.
-  /// Throws Error if a setting is out of range.
-  Odometry(const PinholeIntrinsics& camera, bool calibrated, const Settings& settings, ThreadPool& pool);
+  /// `camera`: of the prepared frames. `readout_s`: time in which a rolling shutter reads them, first row to last; 0:
+  /// global shutter. `calibrated`: whether intensities are irradiances. `pool` must outlive this. Throws Error if a
+  /// setting is out of range.
+  Odometry(const PinholeIntrinsics& camera, double readout_s, bool calibrated, const Settings& settings,
+           ThreadPool& pool);
 
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
 
@@ -51,7 +53,8 @@ class Odometry {
   void start_window(const Initialization& start, const std::shared_ptr<const PreparedFrame>& first);
   void track_waiting(std::vector<FrameRecord>& records);
   /// The best alignment with the newest keyframe of those that begin at `starts`; not good if none is.
-  AlignmentResult align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame, const Brightness& brightness);
+  AlignmentResult align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame, const Brightness& brightness,
+                             const PreviousFrame& previous);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   AlignmentResult align(const PreparedFrame& frame);
   BrightnessPrior brightness_prior(const PreparedFrame& frame) const;
@@ -64,9 +67,14 @@ class Odometry {
   bool make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
                      OdometryOutput& output);
   void select_candidates(Keyframe& keyframe);
+  /// For the alignment of a frame at `time` [s] after one at `previous_time`.
+  PreviousFrame previous_frame(double time, double previous_time, const SE3d& T_previous_ref) const;
+  /// Motion since the last tracked frame: the velocity, also that of a keyframe which that frame was.
+  void note_motion(const PreparedFrame& frame);
   Keyframe& newest() const { return *window_.keyframes.back(); }
 
   PinholeIntrinsics camera_;
+  double readout_s_;
   bool calibrated_;
   Settings settings_;
   ThreadPool& pool_;
@@ -84,8 +92,10 @@ class Odometry {
   Marginalizer marginalizer_;
   Window window_;
 
-  SE3d T_last_ref_;       ///< Last tracked frame relative to the newest keyframe.
-  SE3d T_last_previous_;  ///< Motion between the last two tracked frames.
+  SE3d T_last_ref_;                                 ///< Last tracked frame relative to the newest keyframe.
+  SE3d T_last_previous_;                            ///< Motion between the last two tracked frames.
+  double last_time_ = 0;                            ///< Of the last tracked frame [s].
+  SE3d::Tangent velocity_ = SE3d::Tangent::Zero();  ///< Of the last tracked frame, as of a keyframe.
   Brightness last_brightness_;
   std::vector<double> last_rmse_;  ///< Of each level.
   double first_rmse_ = 0;          ///< Of the first frame aligned to the newest keyframe.

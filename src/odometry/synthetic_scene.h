@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/rolling_shutter.h"
 #include "image/frame.h"
 #include "image/pyramid.h"
 #include "ldso/se3.h"
@@ -69,11 +70,12 @@ class SyntheticScene {
 
   double grey(const SE3d& T_c_w, double u, double v) const { return grey_along(T_c_w.inverse(), ray(u, v)); }
 
-  std::shared_ptr<const PreparedFrame> render(std::int64_t id, const SE3d& T_c_w, double gain = 1,
-                                              double offset = 0) const {
-    const SE3d T_w_c = T_c_w.inverse();
+  /// `readout`: of a rolling shutter.
+  std::shared_ptr<const PreparedFrame> render(std::int64_t id, const SE3d& T_c_w, double gain = 1, double offset = 0,
+                                              const ReadoutMotion& readout = ReadoutMotion::Zero()) const {
     Image<float> image(camera_.width, camera_.height);
     for (int y = 0; y < camera_.height; ++y) {
+      const SE3d T_w_c = row_pose(T_c_w, readout, y).inverse();
       for (int x = 0; x < camera_.width; ++x) {
         image(x, y) = static_cast<float>(std::max(0.0, gain * grey_along(T_w_c, ray(x, y)) + offset));
       }
@@ -83,6 +85,11 @@ class SyntheticScene {
     frame->timestamp = 0.1 * static_cast<double>(id);
     frame->pyramid = build_pyramid(image.view());
     return frame;
+  }
+
+  /// Where the camera is while row y is read.
+  SE3d row_pose(const SE3d& T_c_w, const ReadoutMotion& readout, double y) const {
+    return readout.isZero(0) ? T_c_w : SE3d::exp(row_time(y, camera_.height) * readout) * T_c_w;
   }
 
  private:
@@ -162,13 +169,14 @@ inline Keyframe& add_keyframe(Window& window, std::shared_ptr<const PreparedFram
 inline void add_points(Window& window, Keyframe& host, const SyntheticScene& scene, const SE3d& T_c_w_true, int spacing,
                        int margin = 8) {
   for (int v = margin; v < window.height - margin; v += spacing) {
+    const SE3d T_row_w = scene.row_pose(T_c_w_true, window.readout(host), v);
     for (int u = margin; u < window.width - margin; u += spacing) {
       ImmaturePoint immature;
       if (!make_immature_point(host.image(), static_cast<float>(u), static_cast<float>(v), immature)) continue;
       ActivePoint point;
       point.u = immature.u;
       point.v = immature.v;
-      point.idepth = static_cast<float>(scene.idepth(T_c_w_true, u, v));
+      point.idepth = static_cast<float>(scene.idepth(T_row_w, u, v));
       point.idepth_hessian = 1000;
       point.patch = immature.patch;
       for (auto& target : window.keyframes) {
@@ -194,6 +202,26 @@ inline Window true_window(const SyntheticScene& scene, const std::vector<std::sh
                           int spacing) {
   Window window = empty_window(scene.camera());
   for (const auto& frame : frames) add_keyframe(window, frame, path_pose(static_cast<double>(frame->id)));
+  for (auto& keyframe : window.keyframes) {
+    add_points(window, *keyframe, scene, path_pose(static_cast<double>(keyframe->id())), spacing);
+  }
+  return window;
+}
+
+/// Velocity along the path, ten views a second.
+inline SE3d::Tangent path_velocity(double i) {
+  constexpr double kStep = 1e-4, kViewsPerSecond = 10;
+  return (path_pose(i + kStep) * path_pose(i - kStep).inverse()).log() / (2 * kStep) * kViewsPerSecond;
+}
+
+/// The same seen through a rolling shutter; keyframes know their velocity.
+inline Window rolling_window(const SyntheticScene& scene, int count, double readout_s, int spacing) {
+  Window window = empty_window(scene.camera());
+  window.readout_s = readout_s;
+  for (int i = 0; i < count; ++i) {
+    const SE3d::Tangent velocity = path_velocity(i);
+    add_keyframe(window, scene.render(i, path_pose(i), 1, 0, readout_s * velocity), path_pose(i)).velocity = velocity;
+  }
   for (auto& keyframe : window.keyframes) {
     add_points(window, *keyframe, scene, path_pose(static_cast<double>(keyframe->id())), spacing);
   }

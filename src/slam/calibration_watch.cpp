@@ -1,6 +1,6 @@
 #include "slam/calibration_watch.h"
 
-#include <cstdio>
+#include "util/format_text.h"
 
 namespace ldso {
 
@@ -15,11 +15,14 @@ bool CalibrationWatch::is_wrong(const FrameRecord& frame, int done, Pipeline& pi
 }
 
 std::string describe_change(const CameraCalibration& from, const CameraCalibration& to) {
-  char text[200];
-  std::snprintf(text, sizeof(text),
-                "the images contradict the calibration: focal lengths %.1f %.1f instead of %.1f %.1f, distortion "
-                "coefficient %.4f instead of %.4f",
-                to.fx, to.fy, from.fx, from.fy, to.distortion[0], from.distortion[0]);
+  std::string text = format_text(
+      "the images contradict the calibration: focal lengths %.1f %.1f instead of %.1f %.1f, distortion coefficient "
+      "%.4f "
+      "instead of %.4f",
+      to.fx, to.fy, from.fx, from.fy, to.distortion[0], from.distortion[0]);
+  if (to.readout_ms != from.readout_ms) {
+    text += format_text(", rolling shutter with a readout %.1f ms instead of %.1f ms", to.readout_ms, from.readout_ms);
+  }
   return text;
 }
 

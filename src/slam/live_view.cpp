@@ -79,6 +79,7 @@ LiveView make_live_view(const Window& window, const FrameRecord& record, std::sh
     WindowKeyframe& shown = view.window.emplace_back();
     shown.frame_id = keyframe->id();
     shown.T_world_camera = keyframe->state.T_c_w().inverse();
+    shown.readout = window.readout(*keyframe);
     shown.points.reserve(keyframe->points.size());
     for (const ActivePoint& point : keyframe->points) shown.points.push_back(make_map_point(point));
   }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "geometry/rolling_shutter.h"
 #include "slam/live_view.h"
 #include "util/log.h"
 
@@ -22,6 +23,11 @@ void add_times(const StageTimes& from, std::map<std::string, StageTime>& to) {
   for (const auto& [stage, entry] : from.entries()) to[stage] = {entry.calls, entry.total_ms, entry.worst_ms};
 }
 
+/// Time in which a rolling shutter reads the rows that a rectified image shows.
+double readout_s(const CameraCalibration& camera, const PinholeIntrinsics& rectified) {
+  return camera.readout_ms == 0 ? 0 : 1e-3 * camera.readout_ms * covered_rows(*make_camera_model(camera), rectified);
+}
+
 std::string frame_name(const FrameRecord& frame) { return "frame " + std::to_string(frame.frame_id); }
 
 }  // namespace
@@ -32,7 +38,8 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
       observer_(std::move(observer)),
       preprocessor_(calibration, validated(settings).photometry),
       pool_(settings.threads),
-      odometry_(preprocessor_.output_camera(), preprocessor_.photometrically_calibrated(), settings, pool_) {
+      odometry_(preprocessor_.output_camera(), readout_s(calibration.camera, preprocessor_.output_camera()),
+                preprocessor_.photometrically_calibrated(), settings, pool_) {
   result_.camera = preprocessor_.output_camera();
   if (observer_) observer_->on_start(result_.camera);
   if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_);

@@ -1,6 +1,5 @@
 #include "slam/self_calibration.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -13,10 +12,12 @@ constexpr int kGridSteps = 8;
 /// Beyond these the estimate is no improvement of a calibration but a sign that something else is wrong.
 constexpr double kLargestFocalChange = 0.2;
 constexpr double kLargestRadialChange = 0.5;
+constexpr double kLongestReadoutMs = 100;
 
 bool is_plausible(const CameraCalibration& from, const LensEstimate& to) {
   return to.change.allFinite() && std::abs(to.change[0]) < kLargestFocalChange * from.fx &&
-         std::abs(to.change[1]) < kLargestFocalChange * from.fy && std::abs(to.change[2]) < kLargestRadialChange;
+         std::abs(to.change[1]) < kLargestFocalChange * from.fy && std::abs(to.change[2]) < kLargestRadialChange &&
+         std::abs(to.camera.readout_ms) < kLongestReadoutMs;
 }
 
 }  // namespace
@@ -39,18 +40,27 @@ SelfCalibration::SelfCalibration(const Calibration& calibration, const PinholeIn
                                  const SelfCalibrationSettings& settings)
     : calibration_(calibration), settings_(settings), estimator_(calibration.camera, rectified) {}
 
+LensEstimate SelfCalibration::estimate() const {
+  const LensEstimate both = estimator_.estimate();
+  const double stddev = std::sqrt(both.covariance(kLensDof, kLensDof));
+  const bool certain = std::abs(both.change[kLensDof]) > settings_.significance * stddev &&
+                       std::abs(both.camera.readout_ms - calibration_.camera.readout_ms) > settings_.least_readout_ms;
+  // A readout that is but noise would add to the error of the lens.
+  return certain ? both : estimator_.estimate(/*readout_too=*/false);
+}
+
 bool SelfCalibration::add(const Window& window) {
   if (!estimator_.add(window)) return false;
-  const LensEstimate estimate = estimator_.estimate();
-  const double chi2 = estimate.change.dot(estimate.covariance.ldlt().solve(estimate.change));
-  if (estimator_.windows() < settings_.least_windows || !is_plausible(calibration_.camera, estimate)) return false;
-  return chi2 > settings_.significance * settings_.significance &&
-         largest_shift(calibration_.camera, estimate.camera) > settings_.least_shift;
+  const LensEstimate better = estimate();
+  if (estimator_.windows() < settings_.least_windows || !is_plausible(calibration_.camera, better)) return false;
+  const bool worth_it = better.camera.readout_ms != calibration_.camera.readout_ms ||
+                        largest_shift(calibration_.camera, better.camera) > settings_.least_shift;
+  return better.chi2 > settings_.significance * settings_.significance && worth_it;
 }
 
 Calibration SelfCalibration::better() const {
   Calibration better = calibration_;
-  better.camera = estimator_.estimate().camera;
+  better.camera = estimate().camera;
   if (better.rectification.mode == RectificationMode::kNone) better.rectification.mode = RectificationMode::kCrop;
   return better;
 }

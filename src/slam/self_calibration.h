@@ -20,10 +20,12 @@ class SelfCalibration {
   /// for certain and by much: better() is worth beginning anew.
   bool add(const Window& window);
 
-  /// The calibration with the lens that the residuals so far speak for.
+  /// The calibration with the lens that the residuals so far speak for, and with the shutter if they do so for certain.
   Calibration better() const;
 
  private:
+  LensEstimate estimate() const;
+
   Calibration calibration_;
   SelfCalibrationSettings settings_;
   LensEstimator estimator_;

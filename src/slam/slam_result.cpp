@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <unordered_map>
 
-#include "geometry/pinhole_projection.h"
+#include "geometry/rolling_shutter.h"
 #include "ldso/slam.h"
 
 namespace ldso {
@@ -58,9 +58,7 @@ std::vector<WorldPoint> SlamResult::points(Correction correction) const {
   std::vector<WorldPoint> points;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     for (const MapPoint& point : keyframes[i].points) {
-      const double depth = 1.0 / static_cast<double>(point.idepth);
-      const Eigen::Vector3d in_camera = depth * viewing_ray(camera, {point.u, point.v});
-      const Eigen::Vector3d position = poses_of_keyframes[i] * in_camera;
+      const Eigen::Vector3d position = poses_of_keyframes[i] * position_in_camera(camera, keyframes[i].readout, point);
       if (!(point.idepth > 0) || !position.allFinite()) continue;
       points.push_back({position, point.idepth_stddev, point.intensity});
     }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "geometry/pinhole_projection.h"
+#include "geometry/rolling_shutter.h"
 
 namespace ldso::protocol {
 namespace {
@@ -218,7 +218,8 @@ Bytes encode_window(const LiveView& view, const Sim3d& correction) {
   out.put<std::uint32_t>(view.T_world_camera.has_value());
   out.put_count(view.window.size());
   for (const WindowKeyframe& shown : view.window) {
-    const Keyframe keyframe = to_keyframe(shown.frame_id, shown.T_world_camera, shown.points, view.camera);
+    const Keyframe keyframe =
+        to_keyframe(shown.frame_id, shown.T_world_camera, shown.points, view.camera, shown.readout);
     out.put(keyframe.id);
     out.put_pose<double>(keyframe.T_world_camera);
     out.put_count(keyframe.points.size());
@@ -246,14 +247,13 @@ Bytes encode_image(const CompressedImage& image, std::span<const ViewPixel> pixe
 }
 
 Keyframe to_keyframe(std::int64_t id, const SE3d& T_world_camera, std::span<const MapPoint> points,
-                     const PinholeIntrinsics& camera) {
+                     const PinholeIntrinsics& camera, const ReadoutMotion& readout) {
   Keyframe keyframe;
   keyframe.id = id;
   keyframe.T_world_camera = T_world_camera;
   keyframe.points.reserve(points.size());
   for (const MapPoint& point : points) {
-    const double depth = 1.0 / static_cast<double>(point.idepth);
-    const Eigen::Vector3f position = (depth * viewing_ray(camera, {point.u, point.v})).cast<float>();
+    const Eigen::Vector3f position = position_in_camera(camera, readout, point).cast<float>();
     if (!(point.idepth > 0) || !position.allFinite()) continue;
     keyframe.points.push_back(position);
     keyframe.depth_stddev.push_back(point.idepth_stddev / point.idepth);

@@ -62,7 +62,7 @@ struct Keyframe {
 
 /// Points without a usable depth are left out.
 Keyframe to_keyframe(std::int64_t id, const SE3d& T_world_camera, std::span<const MapPoint> points,
-                     const PinholeIntrinsics& camera);
+                     const PinholeIntrinsics& camera, const ReadoutMotion& readout = ReadoutMotion::Zero());
 
 struct Poses {
   std::int64_t at_frame = -1;  ///< Newest frame when they were known.

@@ -23,7 +23,8 @@ void RunFeed::on_frame(FrameEvent event) {
 }
 
 void RunFeed::on_keyframe(const KeyframeUpdate& keyframe, const PinholeIntrinsics& camera) {
-  protocol::Keyframe shown = protocol::to_keyframe(keyframe.frame_id, keyframe.T_world_camera, keyframe.points, camera);
+  protocol::Keyframe shown =
+      protocol::to_keyframe(keyframe.frame_id, keyframe.T_world_camera, keyframe.points, camera, keyframe.readout);
   shown.timestamp = keyframe.timestamp;
   for (const KeyframeConstraint& constraint : keyframe.constraints) shown.links.push_back(constraint.keyframe_id);
   const std::lock_guard lock(mutex_);

@@ -75,6 +75,7 @@ std::vector<Cell> camera_row(const std::string& name, const CameraCalibration& c
   std::string distortion;
   for (const double k : camera.distortion) distortion += format_text("%s%.5g", distortion.empty() ? "" : " ", k);
   row.push_back({camera.model == CameraModelKind::kPinhole ? "" : distortion});
+  row.push_back({camera.readout_ms == 0 ? "" : format_text("%.1f", camera.readout_ms)});
   return row;
 }
 
@@ -216,7 +217,7 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
                                                         rectified.cx,
                                                         rectified.cy,
                                                         {}}));
-  std::string html = html::table({"", "model", "fx", "fy", "cx", "cy", "distortion"}, rows, {0, 1, 6});
+  std::string html = html::table({"", "model", "fx", "fy", "cx", "cy", "distortion", "readout [ms]"}, rows, {0, 1, 6});
   if (run.passes > 1) {
     html +=
         html::element("p",

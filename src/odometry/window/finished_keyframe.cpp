@@ -8,7 +8,7 @@
 namespace ldso {
 namespace {
 
-FinishedKeyframe finish(const Keyframe& keyframe, bool with_active) {
+FinishedKeyframe finish(const Window& window, const Keyframe& keyframe, bool with_active) {
   FinishedKeyframe finished;
   finished.frame = keyframe.frame;
   finished.corners = keyframe.corners;
@@ -16,6 +16,7 @@ FinishedKeyframe finish(const Keyframe& keyframe, bool with_active) {
   update.frame_id = keyframe.id();
   update.timestamp = keyframe.frame->timestamp;
   update.T_world_camera = keyframe.state.T_c_w().inverse();
+  update.readout = window.readout(keyframe);
   update.points = keyframe.finished;
   if (!with_active) return finished;
   for (const ActivePoint& point : keyframe.points) {
@@ -44,7 +45,7 @@ std::vector<FinishedKeyframe> finish_some(const Window& window, bool all) {
   const RelativePoseCovariance covariance(window);
   for (int i = 0; i < window.size(); ++i) {
     if (!all && !window.keyframes[i]->leaving) continue;
-    finished.push_back(finish(*window.keyframes[i], all));
+    finished.push_back(finish(window, *window.keyframes[i], all));
     gone[i] = true;
     add_constraints(window, i, gone, covariance, finished.back().update);
   }

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <array>
 
+#include "geometry/rolling_shutter.h"
 #include "odometry/window/normal_equations.h"
 
 namespace ldso {
@@ -52,8 +53,13 @@ struct ResidualJacobian {
   Eigen::Vector2d idepth;
 };
 
-bool make_jacobian(const CameraModel& lens, const FramePair& pair, const ActivePoint& point,
-                   const LensShift& host_shift, ResidualJacobian& J) {
+/// How a ray times its inverse depth moves per second of readout that the row of its pixel is away from the middle.
+Eigen::Vector3d readout_velocity(const Keyframe& keyframe, const Eigen::Vector3d& ray, double idepth) {
+  return keyframe.velocity.tail<3>().cross(ray) + keyframe.velocity.head<3>() * idepth;
+}
+
+bool make_jacobian(const CameraModel& lens, const Window& window, int host, int target, const FramePair& pair,
+                   const ActivePoint& point, const LensShift& host_shift, ResidualJacobian& J) {
   ProjectionJacobian base;
   if (!projection_jacobian(pair, point.u, point.v, point.idepth, base)) return false;
   const Eigen::Vector4d camera = pair.camera_lin.cast<double>();
@@ -63,7 +69,13 @@ bool make_jacobian(const CameraModel& lens, const FramePair& pair, const ActiveP
   Eigen::Matrix<double, 2, 3> by_point;
   by_point << 1, 0, -p.x() / p.z(), 0, 1, -p.y() / p.z();
   // The host's pixel is given: if its lens shows rays further out, its true ray is further in.
-  const LensShift shift = lens_shift(lens, p.hnormalized()) - by_point / p.z() * R.leftCols<2>() * host_shift;
+  Eigen::Matrix<double, 2, kLensShutterDof> shift;
+  shift.leftCols<kLensDof>() = lens_shift(lens, p.hnormalized()) - by_point / p.z() * R.leftCols<2>() * host_shift;
+  const double target_row = row_time(camera[1] * p.y() / p.z() + camera[3], window.height);
+  shift.col(kLensDof) =
+      by_point / p.z() *
+      (target_row * readout_velocity(*window.keyframes[target], p, point.idepth) -
+       row_time(point.v, window.height) * R * readout_velocity(*window.keyframes[host], ray, point.idepth));
   J.pixel << base.camera.cast<double>(), camera.head<2>().asDiagonal() * shift, base.pose.cast<double>();
   J.idepth = base.idepth.cast<double>();
   return true;
@@ -110,7 +122,7 @@ void add_point(const Window& window, const CameraModel& lens, const FramePairs& 
     const FramePair& pair = pairs(host, target);
     const PatternSums& s = residual.sums[window.front];
     ResidualJacobian J;
-    if (!make_jacobian(lens, pair, point, host_shift, J)) continue;
+    if (!make_jacobian(lens, window, host, target, pair, point, host_shift, J)) continue;
     const PairEquations e = pair_equations(s, J);
     const auto map = local_map(pair);
     const LocalBlocks blocks(host, target);

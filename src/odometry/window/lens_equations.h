@@ -1,6 +1,6 @@
 #pragma once
 
-// Normal equations of a window's photometric residuals over the rectified camera, the lens behind it, and all
+// Normal equations of a window's photometric residuals over the rectified camera, lens and shutter behind it, and all
 // keyframes; the inverse depths are eliminated.
 
 #include <Eigen/Core>
@@ -12,10 +12,12 @@ namespace ldso {
 
 /// Of the lens: fx, fy [px] and the first distortion coefficient.
 inline constexpr int kLensDof = 3;
-inline constexpr int kLensGlobalDof = kCameraDof + kLensDof;
+/// Of lens and shutter: the time in which a rectified image is read, first row to last [s], comes last.
+inline constexpr int kLensShutterDof = kLensDof + 1;
+inline constexpr int kLensGlobalDof = kCameraDof + kLensShutterDof;
 
-/// Order of the variables: fx, fy, cx, cy of the rectified images, the lens, then eight of each keyframe as in the
-/// window.
+/// Order of the variables: fx, fy, cx, cy of the rectified images, lens and shutter, then eight of each keyframe as in
+/// the window.
 struct LensEquations {
   explicit LensEquations(Eigen::Index dim) : H(Eigen::MatrixXd::Zero(dim, dim)), b(Eigen::VectorXd::Zero(dim)) {}
   Eigen::MatrixXd H;  ///< J^T W J.

@@ -4,6 +4,9 @@
 
 #include <string>
 
+#include "odometry/synthetic_scene.h"
+#include "odometry/window/normal_equations.h"
+
 namespace ldso {
 namespace {
 
@@ -52,6 +55,30 @@ INSTANTIATE_TEST_SUITE_P(Models, LensShift,
                                          lens(CameraModelKind::kRadTan, {}), lens(CameraModelKind::kFov, {0.9}),
                                          lens(CameraModelKind::kKannalaBrandt, {0.02, -0.01, 3e-3, -1e-3})),
                          [](const auto& lens_info) { return "Lens" + std::to_string(lens_info.index); });
+
+/// b = J^T W r is half the gradient of the energy.
+TEST(LensEquations, GradientByTheReadoutMatchesDifferencesOfTheEnergy) {
+  const test::SyntheticScene scene;
+  Window window = test::rolling_window(scene, 4, 0.03, 12);
+  window.readout_s = 0.02;
+  for (auto& keyframe : window.keyframes) {
+    for (ActivePoint& point : keyframe->points) point.idepth_damping = 1e12f;  // Stays where it is.
+  }
+  ThreadPool pool(1);
+  const auto chunks = chunk_points(window, [](const ActivePoint&) { return true; });
+  linearize(window, FramePairs(window), chunks, window.front, pool);
+  const PinholeIntrinsics& c = scene.camera();
+  const CameraCalibration given{CameraModelKind::kRadTan, c.width, c.height, c.fx, c.fy, c.cx, c.cy, {}};
+  const double gradient = make_lens_equations(window, *make_camera_model(given)).b[kLensGlobalDof - 1];
+  constexpr double kStep = 5e-4;
+  const auto energy_at = [&](double readout_s) {
+    window.readout_s = readout_s;
+    return linearize(window, FramePairs(window), chunks, 1 - window.front, pool);
+  };
+  const double numeric = (energy_at(0.02 + kStep) - energy_at(0.02 - kStep)) / (4 * kStep);
+  EXPECT_LT(gradient, 0);  // The readout is longer.
+  EXPECT_NEAR(gradient, numeric, 0.05 * std::abs(numeric));
+}
 
 TEST(LensShiftOutside, IsZeroWhereTheModelHasNoAnswer) {
   const auto model = make_camera_model(lens(CameraModelKind::kRadTan, {-0.3, 0, 0, 0}));

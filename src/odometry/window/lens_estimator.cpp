@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "geometry/rolling_shutter.h"
 #include "odometry/residual_pattern.h"
 #include "odometry/window/pseudo_inverse.h"
 
@@ -18,6 +19,8 @@ constexpr double kGaugeShare = 1e-7;
 /// Precision of the given lens: standard deviation of the focal lengths as a share of them, and of the coefficient.
 constexpr double kFocalShare = 0.05;
 constexpr double kRadialStddev = 0.2;
+/// Of the readout [s].
+constexpr double kReadoutStddev = 0.05;
 /// Pixels that were given as square are so: standard deviation of the aspect ratio.
 constexpr double kAspectShare = 0.005;
 
@@ -30,8 +33,8 @@ CameraCalibration with_radial(CameraCalibration camera) {
 }
 
 LensMatrix prior_information(const CameraCalibration& camera) {
-  const LensVector stddev(kFocalShare * camera.fx, kFocalShare * camera.fy, kRadialStddev);
-  const LensVector aspect(1 / (kAspectShare * camera.fx), -1 / (kAspectShare * camera.fy), 0);
+  const LensVector stddev(kFocalShare * camera.fx, kFocalShare * camera.fy, kRadialStddev, kReadoutStddev);
+  const LensVector aspect(1 / (kAspectShare * camera.fx), -1 / (kAspectShare * camera.fy), 0, 0);
   return LensMatrix(stddev.cwiseAbs2().cwiseInverse().asDiagonal()) + aspect * aspect.transpose();
 }
 
@@ -62,8 +65,9 @@ bool LensEstimator::add(const Window& window) {
   // The change is counted from the rectification as it is, not from what the window made of its focal lengths.
   CameraVector back(rectified_.fx, rectified_.fy, rectified_.cx, rectified_.cy);
   back -= window.camera;
-  const LensMatrix H = reduced.H.bottomRightCorner<kLensDof, kLensDof>();
-  const LensVector g = reduced.b.tail<kLensDof>() + reduced.H.bottomLeftCorner<kLensDof, kCameraDof>() * back;
+  const LensMatrix H = reduced.H.bottomRightCorner<kLensShutterDof, kLensShutterDof>();
+  const LensVector g =
+      reduced.b.tail<kLensShutterDof>() + reduced.H.bottomLeftCorner<kLensShutterDof, kCameraDof>() * back;
   if (!H.allFinite() || !g.allFinite()) return false;
   const double weight = kSpacing / (kResidualCorrelation * window.size() * window.rmse * window.rmse);
   information_ += weight * H;
@@ -73,14 +77,19 @@ bool LensEstimator::add(const Window& window) {
   return true;
 }
 
-LensEstimate LensEstimator::estimate() const {
+LensEstimate LensEstimator::estimate(bool readout_too) const {
+  const int n = readout_too ? kLensShutterDof : kLensDof;
+  const Eigen::MatrixXd information = information_.topLeftCorner(n, n);
   LensEstimate result;
-  result.change = -information_.ldlt().solve(gradient_);
-  result.covariance = information_.inverse();
+  result.change.head(n) = -information.ldlt().solve(gradient_.head(n));
+  result.covariance.setZero();
+  result.covariance.topLeftCorner(n, n) = information.inverse();
+  result.chi2 = result.change.head(n).dot(information * result.change.head(n));
   result.camera = model_->calibration();
   result.camera.fx += result.change[0];
   result.camera.fy += result.change[1];
   result.camera.distortion[0] += result.change[2];
+  result.camera.readout_ms += 1e3 * result.change[3] / covered_rows(*model_, rectified_);
   return result;
 }
 

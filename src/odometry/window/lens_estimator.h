@@ -16,15 +16,16 @@
 
 namespace ldso {
 
-/// fx, fy [px] and the first distortion coefficient of the lens model: k1, for FOV omega. The centre is left as it is:
-/// a driving camera cannot tell it from its own pitch.
-using LensVector = Eigen::Matrix<double, kLensDof, 1>;
-using LensMatrix = Eigen::Matrix<double, kLensDof, kLensDof>;
+/// fx, fy [px], the first distortion coefficient of the lens model (k1, for FOV omega) and the readout time of the
+/// rectified images [s]. The centre is left as it is: a driving camera cannot tell it from its own pitch.
+using LensVector = Eigen::Matrix<double, kLensShutterDof, 1>;
+using LensMatrix = Eigen::Matrix<double, kLensShutterDof, kLensShutterDof>;
 
 struct LensEstimate {
   CameraCalibration camera;                        ///< With the change applied; a pinhole has become RadTan.
   LensVector change = LensVector::Zero();          ///< Against the camera that the images were rectified for.
   LensMatrix covariance = LensMatrix::Identity();  ///< Of the change.
+  double chi2 = 0;                                 ///< The change in its standard deviations, squared.
 };
 
 class LensEstimator {
@@ -39,7 +40,8 @@ class LensEstimator {
   /// Windows that were added.
   int windows() const { return windows_; }
 
-  LensEstimate estimate() const;
+  /// With `readout_too` false the readout is taken as it was given.
+  LensEstimate estimate(bool readout_too = true) const;
 
  private:
   PinholeIntrinsics rectified_;

@@ -50,7 +50,7 @@ class LensEstimatorTest : public testing::Test {
 
 void expect_change(const LensEstimate& estimate, const LensVector& truth, double share) {
   const LensVector stddev = estimate.covariance.diagonal().cwiseSqrt();
-  for (int i = 0; i < kLensDof; ++i) {
+  for (int i = 0; i < kLensShutterDof; ++i) {
     EXPECT_NEAR(estimate.change[i], truth[i], share * std::abs(truth[i]) + 4 * stddev[i]) << i << " +- " << stddev[i];
   }
 }
@@ -64,7 +64,7 @@ TEST_F(LensEstimatorTest, ATrueLensIsLeftAsItIs) {
 
 TEST_F(LensEstimatorTest, FindsARadialDistortion) {
   const LensEstimate result = estimate(1, 0.03, estimator_, believed_);
-  expect_change(result, {0, 0, 0.03}, 0.3);
+  expect_change(result, {0, 0, 0.03, 0}, 0.3);
   EXPECT_GT(result.change[2], 5 * std::sqrt(result.covariance(2, 2)));
   EXPECT_EQ(result.camera.model, CameraModelKind::kRadTan);
   EXPECT_EQ(result.camera.distortion[0], result.change[2]);
@@ -72,9 +72,27 @@ TEST_F(LensEstimatorTest, FindsARadialDistortion) {
 
 TEST_F(LensEstimatorTest, FindsAFocalLengthError) {
   const LensEstimate result = estimate(1.03, 0, estimator_, believed_);
-  expect_change(result, {0.03 * believed_.fx, 0.03 * believed_.fy, 0}, 0.3);
+  expect_change(result, {0.03 * believed_.fx, 0.03 * believed_.fy, 0, 0}, 0.3);
   EXPECT_GT(result.change[0], 3 * std::sqrt(result.covariance(0, 0)));
   EXPECT_EQ(result.camera.fx, believed_.fx + result.change[0]);
+}
+
+TEST_F(LensEstimatorTest, FindsTheReadoutOfARollingShutter) {
+  constexpr double kReadout = 0.03;
+  const test::SyntheticScene scene(believed_);
+  Window window = test::rolling_window(scene, kFrames, kReadout, 9);
+  window.readout_s = 0;  // As if nobody knew.
+  window.camera_prior.setConstant(1e12);
+  ThreadPool pool{1};
+  WindowOptimizer(WindowSettings{}, pool).optimize(window, 20);
+  ASSERT_TRUE(estimator_.add(window));
+  const LensEstimate result = estimator_.estimate();
+  expect_change(result, {0, 0, 0, kReadout}, 0.3);
+  EXPECT_GT(result.change[3], 5 * std::sqrt(result.covariance(3, 3)));
+  EXPECT_NEAR(result.camera.readout_ms, 1e3 * result.change[3], 1e-9);
+  const LensEstimate without = estimator_.estimate(/*readout_too=*/false);
+  EXPECT_EQ(without.change[3], 0);
+  EXPECT_EQ(without.camera.readout_ms, 0);
 }
 
 TEST_F(LensEstimatorTest, AWindowCountsOnce) {

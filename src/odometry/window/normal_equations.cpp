@@ -74,8 +74,8 @@ FramePairs::FramePairs(const Window& window)
   for (int host = 0; host < size_; ++host) {
     for (int target = 0; target < size_; ++target) {
       if (host == target) continue;
-      pairs_[host * size_ + target] =
-          make_frame_pair(*window.keyframes[host], *window.keyframes[target], window.camera, window.camera_lin);
+      pairs_[host * size_ + target] = make_frame_pair(*window.keyframes[host], *window.keyframes[target], window.camera,
+                                                      window.camera_lin, window.readout_s);
     }
   }
 }

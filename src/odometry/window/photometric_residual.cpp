@@ -1,32 +1,53 @@
 #include "odometry/window/photometric_residual.h"
 
 namespace ldso {
+namespace {
 
-PatternWarp make_warp(const SE3d& T_target_host, const Eigen::Vector4d& camera, const BrightnessTransfer& transfer,
-                      const Image<Texel>& target_image) {
+Eigen::Matrix3d camera_matrix(const Eigen::Vector4d& camera) {
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
   K(0, 0) = camera[0];
   K(1, 1) = camera[1];
   K(0, 2) = camera[2];
   K(1, 2) = camera[3];
-  const Eigen::Matrix3d KRKi = K * T_target_host.rotation_matrix() * K.inverse();
-  const Eigen::Vector3d Kt = K * T_target_host.translation();
+  return K;
+}
+
+void store(const Eigen::Matrix3d& M, const Eigen::Vector3d& m, float* to_M, float* to_m) {
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) to_M[3 * r + c] = static_cast<float>(M(r, c));
+    to_m[r] = static_cast<float>(m[r]);
+  }
+}
+
+}  // namespace
+
+PatternWarp make_warp(const SE3d& T_target_host, const Eigen::Vector4d& camera, const BrightnessTransfer& transfer,
+                      const Image<Texel>& target_image) {
+  const Eigen::Matrix3d K = camera_matrix(camera);
   PatternWarp warp;
   warp.texels = target_image.data();
   warp.width = target_image.width();
   warp.height = target_image.height();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) warp.KRKi[3 * r + c] = static_cast<float>(KRKi(r, c));
-    warp.Kt[r] = static_cast<float>(Kt[r]);
-  }
+  store(K * T_target_host.rotation_matrix() * K.inverse(), K * T_target_host.translation(), warp.KRKi, warp.Kt);
   warp.factor = static_cast<float>(transfer.factor);
   warp.offset = static_cast<float>(transfer.offset);
   warp.factor_lin = warp.factor;
   return warp;
 }
 
+void add_readout(const SE3d& T_target_host, const Eigen::Vector4d& camera, const ReadoutMotion& host,
+                 const ReadoutMotion& target, PatternWarp& warp) {
+  RollingWarp& rolling = warp.rolling;
+  rolling.on = !host.isZero(0) || !target.isZero(0);
+  if (!rolling.on) return;
+  const Eigen::Matrix3d K = camera_matrix(camera), Ki = K.inverse(), KR = K * T_target_host.rotation_matrix();
+  // A host's pixel is given: what it shows had moved with the camera already, which is taken back.
+  store(-KR * SO3d::hat(host.tail<3>()) * Ki, -KR * host.head<3>(), rolling.host.KRKi, rolling.host.Kt);
+  store(K * SO3d::hat(target.tail<3>()) * Ki, K * target.head<3>(), rolling.target_KwKi, rolling.target_Kv);
+}
+
 FramePair make_frame_pair(const Keyframe& host, const Keyframe& target, const Eigen::Vector4d& camera,
-                          const Eigen::Vector4d& camera_lin) {
+                          const Eigen::Vector4d& camera_lin, double readout_s) {
   const double host_exposure = host.frame->exposure_ms;
   const double target_exposure = target.frame->exposure_ms;
   FramePair pair;
@@ -35,6 +56,7 @@ FramePair make_frame_pair(const Keyframe& host, const Keyframe& target, const Ei
       make_warp(T_target_host, camera,
                 brightness_transfer(host_exposure, host.state.brightness(), target_exposure, target.state.brightness()),
                 target.image());
+  add_readout(T_target_host, camera, readout_s * host.velocity, readout_s * target.velocity, pair.warp);
   const SE3d T_lin = target.state.T_c_w_lin * host.state.T_c_w_lin.inverse();
   const BrightnessTransfer lin =
       brightness_transfer(host_exposure, host.state.brightness_lin, target_exposure, target.state.brightness_lin);

@@ -28,13 +28,18 @@ struct FramePair {
   Eigen::Matrix<float, kFrameDof, kFrameDof> host_adjoint_f;
 };
 
-/// `camera`, `camera_lin`: fx, fy, cx, cy at the estimate and at the point of linearization.
+/// `camera`, `camera_lin`: fx, fy, cx, cy at the estimate and at the point of linearization; `readout_s`: time from the
+/// first row of an image to the last. The Jacobians are those of a global shutter.
 FramePair make_frame_pair(const Keyframe& host, const Keyframe& target, const Eigen::Vector4d& camera,
-                          const Eigen::Vector4d& camera_lin);
+                          const Eigen::Vector4d& camera_lin, double readout_s = 0);
 
 /// The warp of pixels of a `host` camera into `target_image` for a relative pose and brightness transfer.
 PatternWarp make_warp(const SE3d& T_target_host, const Eigen::Vector4d& camera, const BrightnessTransfer& transfer,
                       const Image<Texel>& target_image);
+
+/// Adds to a warp what both cameras moved while their images were read.
+void add_readout(const SE3d& T_target_host, const Eigen::Vector4d& camera, const ReadoutMotion& host,
+                 const ReadoutMotion& target, PatternWarp& warp);
 
 /// At the point of linearization; `u`, `v` in the host. False if the point is behind the target camera.
 bool projection_jacobian(const FramePair& pair, float u, float v, float idepth, ProjectionJacobian& J);

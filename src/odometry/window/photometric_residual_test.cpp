@@ -34,7 +34,7 @@ class PhotometricResidual : public testing::Test {
  protected:
   PhotometricResidual() {
     auto frame = std::make_shared<PreparedFrame>();
-    frame->pyramid.levels.emplace_back(32, 24);
+    frame->pyramid.levels.emplace_back(320, 240);
     frame->exposure_ms = 4;
     host_.frame = frame;
     auto other = std::make_shared<PreparedFrame>(*frame);
@@ -127,6 +127,40 @@ TEST_F(PhotometricResidual, TheWarpProjectsAtTheEstimate) {
     EXPECT_NEAR(warp.host_b_lin, host_.state.brightness_lin.b, 1e-5);
     EXPECT_EQ(warp.texels, target_.image().data());
   }
+}
+
+/// A point seen in row v of a host that moves while it is read, found again in the row of the target that shows it.
+TEST_F(PhotometricResidual, TheRollingWarpFindsTheRowsThatShowAPoint) {
+  constexpr int kHeight = 240;
+  int checked = 0;
+  for (int round = 0; round < 60; ++round) {
+    randomize();
+    host_.velocity = random_tangent(random_, 0.6, 0.9);
+    target_.velocity = random_tangent(random_, 0.6, 0.9);
+    constexpr double kReadout = 0.03;
+    const PatternWarp warp = make_frame_pair(host_, target_, camera_, camera_lin_, kReadout).warp;
+    const double u = uniform(random_, 0, 320), v = uniform(random_, 0, 240), idepth = uniform(random_, 0.1, 0.5);
+    const auto at_row = [&](const Keyframe& keyframe, double row) {
+      return SE3d::exp(row_time(row, kHeight) * kReadout * keyframe.velocity) * keyframe.state.T_c_w();
+    };
+    const SE3d T_w_host = at_row(host_, v).inverse();
+    double row = kHeight / 2.0;
+    Eigen::Vector2d seen;
+    for (int i = 0; i < 30; ++i) {
+      seen = project(at_row(target_, row) * T_w_host, camera_, u, v, idepth);
+      row = seen.y();
+    }
+    if (!(seen.array() > 0).all() || seen.x() > 320 || seen.y() > 240) continue;
+    const PixelWarp w = warp_at(warp, static_cast<float>(u), static_cast<float>(v), static_cast<float>(idepth));
+    Eigen::Vector3d p;
+    for (int r = 0; r < 3; ++r) p[r] = w.KRKi[3 * r] * u + w.KRKi[3 * r + 1] * v + w.KRKi[3 * r + 2] + w.Kt[r] * idepth;
+    if (p.z() < 0.3) continue;
+    const double shift =
+        (project(target_.state.T_c_w() * host_.state.T_c_w().inverse(), camera_, u, v, idepth) - seen).norm();
+    EXPECT_LT((p.hnormalized() - seen).norm(), 0.02 + 0.03 * shift);
+    checked += shift > 1 ? 1 : 0;
+  }
+  EXPECT_GT(checked, 8);
 }
 
 /// Left increments x_h of T_host_w and x_t of T_target_w move T_target_host by the tangent x_t + A x_h.

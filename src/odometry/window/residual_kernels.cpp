@@ -25,9 +25,9 @@ alignas(32) constexpr float kOffsetY[kPatternSize] = {-2, -1, -1, 0, 0, 0, 1, 2}
 /// Pixel positions of the pattern in the target; false if one of them leaves the image.
 HWY_INLINE bool warp_pattern(const PatternJob& job, float* HWY_RESTRICT xs, float* HWY_RESTRICT ys) {
   const Lanes8 d;
-  const PatternWarp& w = *job.warp;
-  const auto max_x = hn::Set(d, static_cast<float>(w.width) - 2.0f);
-  const auto max_y = hn::Set(d, static_cast<float>(w.height) - 2.0f);
+  const PixelWarp w = warp_at(*job.warp, job.u, job.v, job.idepth);
+  const auto max_x = hn::Set(d, static_cast<float>(job.warp->width) - 2.0f);
+  const auto max_y = hn::Set(d, static_cast<float>(job.warp->height) - 2.0f);
   const auto one = hn::Set(d, 1.0f);
   bool inside = true;
   for (size_t i = 0; i < kPatternSize; i += hn::Lanes(d)) {
@@ -141,6 +141,7 @@ namespace {
 
 bool evaluate_reference(const PatternJob& job, PatternSums& s) {
   const PatternWarp& w = *job.warp;
+  const PixelWarp at = warp_at(w, job.u, job.v, job.idepth);
   s = {};
   int valid = 0;
   for (int i = 0; i < kPatternSize; ++i) {
@@ -148,7 +149,7 @@ bool evaluate_reference(const PatternJob& job, PatternSums& s) {
     const float v = job.v + static_cast<float>(kPattern[i].dy);
     float p[3];
     for (int r = 0; r < 3; ++r)
-      p[r] = w.KRKi[3 * r] * u + w.KRKi[3 * r + 1] * v + w.KRKi[3 * r + 2] + w.Kt[r] * job.idepth;
+      p[r] = at.KRKi[3 * r] * u + at.KRKi[3 * r + 1] * v + at.KRKi[3 * r + 2] + at.Kt[r] * job.idepth;
     const float x = p[0] / p[2], y = p[1] / p[2];
     const bool inside =
         p[2] > 0 && x > 1 && y > 1 && x < static_cast<float>(w.width) - 2 && y < static_cast<float>(w.height) - 2;

@@ -4,23 +4,10 @@
 // sample it, weight the differences and sum the products that the normal equations need [D 2.2, 2.3].
 // Highway code: includes no Eigen header.
 
-#include "image/frame.h"
 #include "odometry/residual_pattern.h"
+#include "odometry/window/pattern_warp.h"
 
 namespace ldso {
-
-/// What is common to all residuals between one host and one target keyframe, at the current estimate.
-struct PatternWarp {
-  const Texel* texels = nullptr;  ///< Target image, row-major without padding.
-  int width = 0;
-  int height = 0;
-  float KRKi[9] = {};  ///< K_t R_t_h K_h^-1, row-major.
-  float Kt[3] = {};    ///< K_t t_t_h.
-  float factor = 1;    ///< Brightness: I_target = factor * I_host + offset, current estimate.
-  float offset = 0;
-  float factor_lin = 1;  ///< The same factor at the linearization point.
-  float host_b_lin = 0;  ///< b of the host at the linearization point.
-};
 
 struct PatternJob {
   const PatternPatch* patch = nullptr;

@@ -63,6 +63,20 @@ PatternWarp random_warp(const Image<Texel>& image, double turn, std::mt19937& ra
   return warp;
 }
 
+void add_random_rolling(PatternWarp& warp, std::mt19937& random) {
+  warp.rolling.on = true;
+  for (int i = 0; i < 9; ++i) {
+    const float size = i == 6 || i == 7 ? 0.0002f : i % 3 == 2 ? 3.0f : 0.03f;
+    warp.rolling.host.KRKi[i] = size * random_float(random, -1, 1);
+    warp.rolling.target_KwKi[i] = size * random_float(random, -1, 1);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const float size = i == 2 ? 0.03f : 2.0f;
+    warp.rolling.host.Kt[i] = size * random_float(random, -1, 1);
+    warp.rolling.target_Kv[i] = size * random_float(random, -1, 1);
+  }
+}
+
 void expect_near(float actual, float expected, float size, const char* name) {
   EXPECT_NEAR(actual, expected, 5e-4f * size + 1e-4f) << name;
 }
@@ -95,11 +109,12 @@ class ResidualKernels : public testing::TestWithParam<std::int64_t> {
   ResidualKernels() : target_(GetParam()) {}
 
   /// Compares many random patterns; returns how many were in view.
-  int compare(double turn, double invalid, int rounds) {
+  int compare(double turn, double invalid, int rounds, bool rolling = false) {
     int in_view = 0;
     for (int round = 0; round < rounds; ++round) {
       const Image<Texel> image = random_texels(61, 47, invalid, random_);
-      const PatternWarp warp = random_warp(image, turn, random_);
+      PatternWarp warp = random_warp(image, turn, random_);
+      if (rolling) add_random_rolling(warp, random_);
       std::vector<PatternPatch> patches(101);
       std::vector<PatternJob> jobs;
       for (PatternPatch& patch : patches) {
@@ -126,6 +141,8 @@ class ResidualKernels : public testing::TestWithParam<std::int64_t> {
 TEST_P(ResidualKernels, MatchReferenceOnValidImages) { EXPECT_GT(compare(0.05, 0, 30), 300); }
 
 TEST_P(ResidualKernels, MatchReferenceWithInvalidTexels) { EXPECT_GT(compare(0.05, 0.08, 40), 300); }
+
+TEST_P(ResidualKernels, MatchReferenceWithARollingShutter) { EXPECT_GT(compare(0.05, 0.02, 40, true), 300); }
 
 TEST_P(ResidualKernels, MatchReferenceUnderStrongRotation) { EXPECT_GT(compare(0.5, 0.02, 60), 100); }
 

@@ -17,6 +17,7 @@ using CameraVector = Eigen::Matrix<double, kCameraDof, 1>;
 struct Window {
   int width = 0;
   int height = 0;
+  double readout_s = 0;                            ///< Of a rolling shutter, first row to last; 0: global shutter.
   CameraVector camera = CameraVector::Zero();      ///< fx, fy, cx, cy at the current estimate [px].
   CameraVector camera_lin = CameraVector::Zero();  ///< Where Jacobians are taken.
   CameraVector camera_backup = CameraVector::Zero();
@@ -30,6 +31,9 @@ struct Window {
   int size() const { return static_cast<int>(keyframes.size()); }
   int dim() const { return kCameraDof + kFrameDof * size(); }
   static int offset(int keyframe) { return kCameraDof + kFrameDof * keyframe; }
+
+  /// Motion of a keyframe's camera while its image was read.
+  ReadoutMotion readout(const Keyframe& keyframe) const { return readout_s * keyframe.velocity; }
 
   PinholeIntrinsics intrinsics() const { return {width, height, camera[0], camera[1], camera[2], camera[3]}; }
 

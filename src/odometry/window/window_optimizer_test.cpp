@@ -97,6 +97,24 @@ TEST_F(WindowOptimizerTest, ConvergesToTheTruthUpToTheGauge) {
   EXPECT_LT((window.camera - window.camera_lin).norm(), 0.5);
 }
 
+TEST_F(WindowOptimizerTest, ARollingShutterThatIsKnownDoesNoHarm) {
+  constexpr double kReadout = 0.03;
+  const auto errors_with = [&](double readout_s) {
+    Window window = test::rolling_window(*scene_, kFrames, kReadout, 15);
+    window.readout_s = readout_s;
+    window.camera_prior.setConstant(2e6);
+    test::disturb(window, 0.01, 0.004, 0, 0, 0.04, 9);
+    ThreadPool pool{1};
+    EXPECT_TRUE(WindowOptimizer(WindowSettings{}, pool).optimize(window, 30).finite);
+    return errors_of(window, *scene_);
+  };
+  const Errors known = errors_with(kReadout), ignored = errors_with(0);
+  EXPECT_LT(known.translation, 0.003);
+  EXPECT_LT(known.rotation, 5e-4);
+  EXPECT_GT(ignored.translation, 2 * known.translation);
+  EXPECT_GT(ignored.rotation, 2 * known.rotation);
+}
+
 TEST_F(WindowOptimizerTest, EnergyDecreasesWithEveryIteration) {
   double last = 0, first = 0;
   for (int iterations = 0; iterations <= 8; ++iterations) {
