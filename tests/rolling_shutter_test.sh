@@ -20,6 +20,12 @@ echo "ATE in % of the path: known $(percent "$WORK/known"), ignored $(percent "$
 expect_true "known, it does no harm" "$(percent "$WORK/known") < 0.1"
 expect_true "found, it does less than half of the harm" "2 * $(percent "$WORK/found") < $(percent "$WORK/ignored")"
 
+# An image that comes twice does not mean that the camera stood still.
+stutter_sequence "$SEQUENCE" "$WORK/stutter" 10
+expect_exit 0 run "$WORK/stutter" -o "$WORK/twice" --no-loops --calib "$WORK/true.txt"
+echo "each tenth image twice: $(percent "$WORK/twice")"
+expect_true "repeated images do no harm" "$(percent "$WORK/twice") < 1.2 * $(percent "$WORK/known")"
+
 expect_exit 0 run "$SEQUENCE" -o "$WORK/again" --no-loops --calib "$WORK/found/camera.txt" --threads 1
 expect_json "$WORK/again/run.json" "['self_calibration']['passes']" 1
 cmp "$WORK/again/trajectory.txt" "$WORK/found/trajectory.txt" || fail "the written calibration gives another trajectory"

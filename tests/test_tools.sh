@@ -75,3 +75,26 @@ with open(target + "/times.txt", "w") as out:
             number += 1
 PY
 }
+
+# stutter_sequence FROM TO EVERY: each EVERY-th image comes twice, at even intervals of time, as from a driver that had no
+# new one. Ground truth is where the image was taken.
+stutter_sequence() {
+  copy_sequence "$1" "$2"
+  rm -r "$2/images" && mkdir "$2/images"
+  python3 - "$@" <<'PY'
+import os, sys
+source, target, every = sys.argv[1], sys.argv[2], int(sys.argv[3])
+rows = lambda name: [line.split() for line in open(source + name) if line.strip() and not line.startswith("#")]
+times, truth, images = rows("/times.txt"), rows("/groundtruth.txt"), sorted(os.listdir(source + "/images"))
+assert len(times) == len(truth) == len(images)
+interval = float(times[1][1]) - float(times[0][1])
+shown = [i for i in range(len(times)) for _ in range(1 + (i % every == every - 1))]
+with open(target + "/times.txt", "w") as new_times, open(target + "/groundtruth.txt", "w") as new_truth:
+    for number, i in enumerate(shown):
+        name, time = "%06d" % number, "%.9f" % (number * interval)
+        os.symlink(os.path.realpath(source + "/images/" + images[i]),
+                   target + "/images/" + name + os.path.splitext(images[i])[1])
+        new_times.write(" ".join([name, time] + times[i][2:]) + "\n")
+        new_truth.write(" ".join([time] + truth[i][1:]) + "\n")
+PY
+}

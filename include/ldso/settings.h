@@ -213,7 +213,7 @@ struct LoopSettings {
 struct SelfCalibrationSettings {
   bool enabled = true;       ///< For sequences that can be read again, not for live images.
   int frames = 300;          ///< First frames that are looked at.
-  int passes = 3;            ///< Times that a run may begin.
+  int passes = 5;            ///< Times that a run may begin.
   int least_windows = 4;     ///< Windows that must have been looked at.
   double significance = 6;   ///< Least deviation from the given calibration [standard deviations].
   double least_shift = 0.5;  ///< Least deviation that is worth it, where it is largest in the image [px].

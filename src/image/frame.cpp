@@ -1,6 +1,7 @@
 #include "image/frame.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace ldso {
 namespace {
@@ -11,6 +12,12 @@ constexpr int kMinCoarsestHeight = 30;
 constexpr int kMaxLevels = 6;
 
 }  // namespace
+
+bool same_image(const PreparedFrame& a, const PreparedFrame& b) {
+  const auto &first = a.pyramid.levels.front(), &second = b.pyramid.levels.front();
+  return a.exposure_ms == b.exposure_ms && first.width() == second.width() && first.height() == second.height() &&
+         std::memcmp(first.data(), second.data(), first.size() * sizeof(Texel)) == 0;
+}
 
 int pyramid_level_count(int width, int height) {
   int levels = 1;

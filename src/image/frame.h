@@ -43,6 +43,10 @@ struct PreparedFrame {
   ImagePyramid pyramid;
 };
 
+/// Whether both are the same image, pixel for pixel, as where a camera's driver hands one out twice: sensor noise makes
+/// two images of a camera at rest differ.
+bool same_image(const PreparedFrame& a, const PreparedFrame& b);
+
 /// Number of usable pyramid levels for an image size, at most 6.
 int pyramid_level_count(int width, int height);
 

@@ -7,6 +7,22 @@
 namespace ldso {
 namespace {
 
+TEST(SameImage, IsTheSameInEachPixelAndAsBright) {
+  PreparedFrame a;
+  a.pyramid.levels.emplace_back(8, 6);
+  PreparedFrame b = a;
+  b.id = 1;
+  b.timestamp = 0.1;
+  EXPECT_TRUE(same_image(a, b));
+  b.exposure_ms = 2;
+  EXPECT_FALSE(same_image(a, b));
+  b.exposure_ms = a.exposure_ms;
+  b.pyramid.levels[0](7, 5).intensity = 1;
+  EXPECT_FALSE(same_image(a, b));
+  b.pyramid.levels[0] = Image<Texel>(6, 8);
+  EXPECT_FALSE(same_image(a, b));
+}
+
 TEST(PyramidLevelCount, KeepsTheCoarsestLevelUsable) {
   EXPECT_EQ(pyramid_level_count(640, 480), 4);    // 80 x 60
   EXPECT_EQ(pyramid_level_count(240, 180), 3);    // 60 x 45

@@ -54,6 +54,8 @@ OdometryOutput Odometry::process(const std::shared_ptr<const PreparedFrame>& fra
   output.frame.timestamp = frame->timestamp;
   if (state_ == TrackingState::kInitializing) {
     initialize(frame, output);
+  } else if (state_ == TrackingState::kTracked && same_image(*frame, *last_frame_)) {
+    repeat(*frame, output);
   } else {
     track(frame, output);
   }
@@ -88,6 +90,7 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
   const SE3d T_scaled(start.T_current_first.rotation(), start.T_current_first.translation() * start_scale_);
   const SE3d T_c_w = T_scaled * newest().state.T_c_w();
   velocity_ = newest().velocity = velocity_of(T_scaled, frame->timestamp - first->timestamp);
+  last_frame_ = frame;
   last_time_ = frame->timestamp;
   if (!make_keyframe(frame, T_c_w, {start.a, start.b}, output)) {
     waiting_.clear();
@@ -113,9 +116,10 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
   const Keyframe& last = newest();
   const SE3d::Tangent motion = (first.state.T_c_w() * last.state.T_c_w().inverse()).log();
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, last.id() - first.id()));
-  SE3d T_frame_ref;
-  double time = last.frame->timestamp;
-  Brightness brightness = last.state.brightness();
+  AlignmentResult found;  // Of the frame after the one in hand.
+  found.brightness = last.state.brightness();
+  std::shared_ptr<const PreparedFrame> next = last.frame;
+  double next_time = next->timestamp;
   while (!waiting_.empty()) {
     const std::shared_ptr<const PreparedFrame> frame = waiting_.back();
     waiting_.pop_back();
@@ -129,18 +133,20 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
       records.push_back(record);
       continue;
     }
-    const double share = static_cast<double>(last.id() - frame->id) / steps;
-    const AlignmentResult result = align_from({T_frame_ref, SE3d::exp(share * motion)}, *frame, brightness,
-                                              previous_frame(frame->timestamp, time, T_frame_ref));
-    if (!result.good || result.in_view < settings_.tracking.least_in_view) continue;
-    T_frame_ref = result.T_new_ref;
-    time = frame->timestamp;
-    brightness = result.brightness;
+    if (!same_image(*frame, *next)) {
+      const double share = static_cast<double>(last.id() - frame->id) / steps;
+      const AlignmentResult result = align_from({found.T_new_ref, SE3d::exp(share * motion)}, *frame, found.brightness,
+                                                previous_frame(frame->timestamp, next_time, found.T_new_ref));
+      if (!result.good || result.in_view < settings_.tracking.least_in_view) continue;
+      found = result;
+      next = frame;
+    }
+    next_time = frame->timestamp;
     record.keyframe_id = last.id();
-    record.T_keyframe_frame = T_frame_ref.inverse();
-    record.residual_rmse = static_cast<float>(result.rmse());
-    record.brightness_a = static_cast<float>(brightness.a);
-    record.brightness_b = static_cast<float>(brightness.b);
+    record.T_keyframe_frame = found.T_new_ref.inverse();
+    record.residual_rmse = static_cast<float>(found.rmse());
+    record.brightness_a = static_cast<float>(found.brightness.a);
+    record.brightness_b = static_cast<float>(found.brightness.b);
     records.push_back(record);
   }
 }
@@ -150,11 +156,12 @@ PreviousFrame Odometry::previous_frame(double time, double previous_time, const 
   return {T_previous_ref, std::abs(share) < kLargestReadoutShare ? share : 0};
 }
 
-void Odometry::note_motion(const PreparedFrame& frame) {
-  velocity_ = velocity_of(T_last_previous_, frame.timestamp - last_time_);
+void Odometry::note_motion(const std::shared_ptr<const PreparedFrame>& frame) {
+  velocity_ = velocity_of(T_last_previous_, frame->timestamp - last_time_);
   // What is known before and after the time of a keyframe tells its velocity better than one of both.
-  if (newest().frame->timestamp == last_time_) newest().velocity = 0.5 * (newest().velocity + velocity_);
-  last_time_ = frame.timestamp;
+  if (newest().frame == last_frame_) newest().velocity = 0.5 * (newest().velocity + velocity_);
+  last_frame_ = frame;
+  last_time_ = frame->timestamp;
 }
 
 AlignmentResult Odometry::align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
@@ -231,14 +238,9 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
   if (first_rmse_ <= 0) first_rmse_ = result.rmse();
   T_last_previous_ = result.T_new_ref * T_last_ref_.inverse();
   T_last_ref_ = result.T_new_ref;
-  note_motion(*frame);
+  note_motion(frame);
   last_brightness_ = result.brightness;
-  output.frame.state = TrackingState::kTracked;
-  output.frame.keyframe_id = newest().id();
-  output.frame.T_keyframe_frame = result.T_new_ref.inverse();
-  output.frame.residual_rmse = static_cast<float>(result.rmse());
-  output.frame.brightness_a = static_cast<float>(result.brightness.a);
-  output.frame.brightness_b = static_cast<float>(result.brightness.b);
+  record_last_pose(output.frame);
 
   const SE3d T_c_w = result.T_new_ref * newest().state.T_c_w();
   FrameMotion motion = tracker_.motion(*frame, result);
@@ -248,6 +250,20 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
   if (!make_keyframe(frame, T_c_w, result.brightness, output)) {
     restart("the window optimization diverged", output);
   }
+}
+
+void Odometry::repeat(const PreparedFrame& frame, OdometryOutput& output) {
+  last_time_ = frame.timestamp;
+  record_last_pose(output.frame);
+}
+
+void Odometry::record_last_pose(FrameRecord& record) const {
+  record.state = TrackingState::kTracked;
+  record.keyframe_id = newest().id();
+  record.T_keyframe_frame = T_last_ref_.inverse();
+  record.residual_rmse = static_cast<float>(last_rmse_.empty() ? 0 : last_rmse_.front());
+  record.brightness_a = static_cast<float>(last_brightness_.a);
+  record.brightness_b = static_cast<float>(last_brightness_.b);
 }
 
 void Odometry::handle_loss(const std::string& reason, OdometryOutput& output) {

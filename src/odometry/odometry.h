@@ -56,6 +56,8 @@ class Odometry {
   AlignmentResult align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame, const Brightness& brightness,
                              const PreviousFrame& previous);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
+  /// A frame that shows the last image once more: it has that one's pose, and says nothing of how the camera moved.
+  void repeat(const PreparedFrame& frame, OdometryOutput& output);
   AlignmentResult align(const PreparedFrame& frame);
   BrightnessPrior brightness_prior(const PreparedFrame& frame) const;
   void handle_loss(const std::string& reason, OdometryOutput& output);
@@ -70,7 +72,8 @@ class Odometry {
   /// For the alignment of a frame at `time` [s] after one at `previous_time`.
   PreviousFrame previous_frame(double time, double previous_time, const SE3d& T_previous_ref) const;
   /// Motion since the last tracked frame: the velocity, also that of a keyframe which that frame was.
-  void note_motion(const PreparedFrame& frame);
+  void note_motion(const std::shared_ptr<const PreparedFrame>& frame);
+  void record_last_pose(FrameRecord& record) const;
   Keyframe& newest() const { return *window_.keyframes.back(); }
 
   PinholeIntrinsics camera_;
@@ -92,10 +95,11 @@ class Odometry {
   Marginalizer marginalizer_;
   Window window_;
 
-  SE3d T_last_ref_;                                 ///< Last tracked frame relative to the newest keyframe.
-  SE3d T_last_previous_;                            ///< Motion between the last two tracked frames.
-  double last_time_ = 0;                            ///< Of the last tracked frame [s].
-  SE3d::Tangent velocity_ = SE3d::Tangent::Zero();  ///< Of the last tracked frame, as of a keyframe.
+  SE3d T_last_ref_;                                  ///< Last tracked frame relative to the newest keyframe.
+  SE3d T_last_previous_;                             ///< Motion between the last two tracked frames.
+  std::shared_ptr<const PreparedFrame> last_frame_;  ///< The last tracked one that showed a new image.
+  double last_time_ = 0;                             ///< When it was shown for the last time [s].
+  SE3d::Tangent velocity_ = SE3d::Tangent::Zero();   ///< Of the last tracked frame, as of a keyframe.
   Brightness last_brightness_;
   std::vector<double> last_rmse_;  ///< Of each level.
   double first_rmse_ = 0;          ///< Of the first frame aligned to the newest keyframe.

@@ -81,6 +81,24 @@ TEST(Slam, FollowsTheCameraAndMapsWhatItSees) {
   EXPECT_GT(result.points().size(), 300u);
 }
 
+TEST(Slam, AnImageThatComesTwiceHasOnePose) {
+  constexpr int kTwice = 22;
+  Slam slam(scene_calibration(), Settings{});
+  for (int i = 0; i < kFrames; ++i) slam.process(draw_scene(i <= kTwice ? i : i - 1).view(), 0.1 * i);
+  const SlamResult result = slam.finish();
+  ASSERT_EQ(result.frames[kTwice].state, TrackingState::kTracked);
+  const FrameRecord& repeated = result.frames[kTwice + 1];
+  EXPECT_EQ(repeated.state, TrackingState::kTracked);
+  EXPECT_FALSE(repeated.is_keyframe);
+  const auto poses = result.trajectory();
+  const auto pose = [&](int frame) {
+    return std::find_if(poses.begin(), poses.end(), [=](const auto& p) { return p.frame_id == frame; })->T_world_camera;
+  };
+  EXPECT_EQ(pose(kTwice).matrix(), pose(kTwice + 1).matrix());
+  const double step = (pose(kTwice).translation() - pose(kTwice - 1).translation()).norm();
+  EXPECT_NEAR((pose(kTwice + 2).translation() - pose(kTwice + 1).translation()).norm(), step, 0.2 * step);
+}
+
 TEST(Slam, ResultDoesNotDependOnThreads) {
   Settings settings;
   settings.threads = 1;
