@@ -21,7 +21,7 @@ expect_true "known, it does no harm" "$(percent "$WORK/known") < 0.1"
 expect_true "found, it does less than half of the harm" "2 * $(percent "$WORK/found") < $(percent "$WORK/ignored")"
 
 # An image that comes twice does not mean that the camera stood still.
-stutter_sequence "$SEQUENCE" "$WORK/stutter" 10
+stutter_sequence "$SEQUENCE" "$WORK/stutter" 10 0.033333333
 expect_exit 0 run "$WORK/stutter" -o "$WORK/twice" --no-loops --calib "$WORK/true.txt"
 echo "each tenth image twice: $(percent "$WORK/twice")"
 expect_true "repeated images do no harm" "$(percent "$WORK/twice") < 1.2 * $(percent "$WORK/known")"

@@ -53,48 +53,38 @@ own_image() {
   echo "$image"
 }
 
-# repeat_sequence FROM TO TIMES: the images to and fro, so many times in all, as links. Without ground truth.
-repeat_sequence() {
+# reorder_sequence FROM TO SHOWN INTERVAL [truth]: its images as links in the order of SHOWN, a Python expression of their
+# number n that gives indices, one each INTERVAL seconds; with `truth` the ground truth of when they were taken.
+reorder_sequence() {
   mkdir -p "$2/images"
   cp "$1/camera.txt" "$2/"
   find "$1" -maxdepth 1 \( -name pcalib.txt -o -name vignette.png \) -exec cp {} "$2/" \;
   python3 - "$@" <<'PY'
 import os, sys
-source, target, times = sys.argv[1], sys.argv[2], int(sys.argv[3])
-lines = [line.split() for line in open(source + "/times.txt") if line.strip() and not line.startswith("#")]
-images = sorted(os.listdir(source + "/images"))
-assert len(lines) == len(images)
-frames = list(zip(images, lines))
-number = 0
+source, target, shown, interval = sys.argv[1:5]
+rows = lambda name: [line.split() for line in open(source + name) if line.strip() and not line.startswith("#")]
+times, images = rows("/times.txt"), sorted(os.listdir(source + "/images"))
+assert len(times) == len(images)
+frames = [("%06d" % k, "%.9f" % (k * float(interval)), i) for k, i in enumerate(eval(shown, {"n": len(images)}))]
 with open(target + "/times.txt", "w") as out:
-    for repetition in range(times):
-        for image, line in frames if repetition % 2 == 0 else frames[::-1]:
-            name = "%06d" % number
-            os.symlink(os.path.realpath(source + "/images/" + image), target + "/images/" + name + os.path.splitext(image)[1])
-            out.write(" ".join([name, "%.6f" % (number / 10)] + line[2:]) + "\n")
-            number += 1
+    for name, time, i in frames:
+        image = target + "/images/" + name + os.path.splitext(images[i])[1]
+        os.symlink(os.path.realpath(source + "/images/" + images[i]), image)
+        out.write(" ".join([name, time] + times[i][2:]) + "\n")
+if "truth" in sys.argv[5:]:
+    truth = rows("/groundtruth.txt")
+    assert len(truth) == len(images)
+    with open(target + "/groundtruth.txt", "w") as out:
+        out.writelines(" ".join([time] + truth[i][1:]) + "\n" for _, time, i in frames)
 PY
 }
 
-# stutter_sequence FROM TO EVERY: each EVERY-th image comes twice, at even intervals of time, as from a driver that had no
-# new one. Ground truth is where the image was taken.
+# repeat_sequence FROM TO TIMES: the images to and fro, so many times in all. Without ground truth.
+repeat_sequence() {
+  reorder_sequence "$1" "$2" "[i for k in range($3) for i in (range(n) if k % 2 == 0 else range(n - 1, -1, -1))]" 0.1
+}
+
+# stutter_sequence FROM TO EVERY INTERVAL: each EVERY-th image comes twice, as from a driver that had no new one.
 stutter_sequence() {
-  copy_sequence "$1" "$2"
-  rm -r "$2/images" && mkdir "$2/images"
-  python3 - "$@" <<'PY'
-import os, sys
-source, target, every = sys.argv[1], sys.argv[2], int(sys.argv[3])
-rows = lambda name: [line.split() for line in open(source + name) if line.strip() and not line.startswith("#")]
-times, truth, images = rows("/times.txt"), rows("/groundtruth.txt"), sorted(os.listdir(source + "/images"))
-assert len(times) == len(truth) == len(images)
-interval = float(times[1][1]) - float(times[0][1])
-shown = [i for i in range(len(times)) for _ in range(1 + (i % every == every - 1))]
-with open(target + "/times.txt", "w") as new_times, open(target + "/groundtruth.txt", "w") as new_truth:
-    for number, i in enumerate(shown):
-        name, time = "%06d" % number, "%.9f" % (number * interval)
-        os.symlink(os.path.realpath(source + "/images/" + images[i]),
-                   target + "/images/" + name + os.path.splitext(images[i])[1])
-        new_times.write(" ".join([name, time] + times[i][2:]) + "\n")
-        new_truth.write(" ".join([time] + truth[i][1:]) + "\n")
-PY
+  reorder_sequence "$1" "$2" "[i for i in range(n) for _ in range(2 if i % $3 == $3 - 1 else 1)]" "$4" truth
 }

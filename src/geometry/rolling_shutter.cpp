@@ -3,14 +3,6 @@
 #include "geometry/pinhole_projection.h"
 
 namespace ldso {
-namespace {
-
-/// How a ray times its inverse depth moves over the whole readout.
-Eigen::Vector3d velocity_of(const ReadoutMotion& motion, const Eigen::Vector3d& ray, double idepth) {
-  return motion.tail<3>().cross(ray) + motion.head<3>() * idepth;
-}
-
-}  // namespace
 
 double covered_rows(const CameraModel& camera, const PinholeIntrinsics& rectified) {
   constexpr int kColumns = 9;
@@ -31,7 +23,7 @@ PixelDepth without_readout(const PinholeIntrinsics& camera, const ReadoutMotion&
                            double idepth) {
   if (motion.isZero(0)) return {pixel, idepth};
   const Eigen::Vector3d seen = viewing_ray(camera, pixel);
-  const Eigen::Vector3d ray = seen - row_time(pixel.y(), camera.height) * velocity_of(motion, seen, idepth);
+  const Eigen::Vector3d ray = seen - row_time(pixel.y(), camera.height) * ray_velocity(motion, seen, idepth);
   return {project(camera, ray), idepth / ray.z()};
 }
 
@@ -39,7 +31,7 @@ Eigen::Vector2d with_readout(const PinholeIntrinsics& camera, const ReadoutMotio
                              double idepth) {
   if (motion.isZero(0)) return pixel;
   const Eigen::Vector3d ray = viewing_ray(camera, pixel);
-  const Eigen::Vector3d velocity = velocity_of(motion, ray, idepth);
+  const Eigen::Vector3d velocity = ray_velocity(motion, ray, idepth);
   // The row that shows the point is itself a matter of the motion: v' = v + t(v') dv is solved for its time t.
   const double rows = camera.fy * (velocity.y() - ray.y() * velocity.z());
   const double time = row_time(pixel.y(), camera.height) / (1 - rows / camera.height);

@@ -6,6 +6,7 @@
 // with Rolling Shutter, ECCV 2018, estimate the velocity of each keyframe; here it comes from tracking.)
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "geometry/camera_model.h"
 #include "ldso/calibration.h"
@@ -15,6 +16,11 @@ namespace ldso {
 
 /// Time at which row v of an image with `height` rows is read, as a share of the readout, 0 for the middle row.
 inline double row_time(double v, int height) { return v / height - 0.5; }
+
+/// How a ray times its inverse depth moves with a camera that moves like this; for a ReadoutMotion, over the readout.
+inline Eigen::Vector3d ray_velocity(const SE3d::Tangent& motion, const Eigen::Vector3d& ray, double idepth) {
+  return motion.tail<3>().cross(ray) + motion.head<3>() * idepth;
+}
 
 /// Share of a camera's rows between the first and the last one of a rectified image, on the average of its columns: its
 /// readout takes that share of the camera's.

@@ -29,6 +29,17 @@ SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
   return velocity.allFinite() ? velocity : SE3d::Tangent(SE3d::Tangent::Zero());
 }
 
+/// Of a frame that was aligned with keyframe `ref`.
+void record_pose(const Keyframe& ref, const SE3d& T_frame_ref, double rmse, const Brightness& brightness,
+                 FrameRecord& record) {
+  record.state = TrackingState::kTracked;
+  record.keyframe_id = ref.id();
+  record.T_keyframe_frame = T_frame_ref.inverse();
+  record.residual_rmse = static_cast<float>(rmse);
+  record.brightness_a = static_cast<float>(brightness.a);
+  record.brightness_b = static_cast<float>(brightness.b);
+}
+
 }  // namespace
 
 Odometry::Odometry(const PinholeIntrinsics& camera, double readout_s, bool calibrated, const Settings& settings,
@@ -142,11 +153,7 @@ void Odometry::track_waiting(std::vector<FrameRecord>& records) {
       next = frame;
     }
     next_time = frame->timestamp;
-    record.keyframe_id = last.id();
-    record.T_keyframe_frame = found.T_new_ref.inverse();
-    record.residual_rmse = static_cast<float>(found.rmse());
-    record.brightness_a = static_cast<float>(found.brightness.a);
-    record.brightness_b = static_cast<float>(found.brightness.b);
+    record_pose(last, found.T_new_ref, found.rmse(), found.brightness, record);
     records.push_back(record);
   }
 }
@@ -258,12 +265,7 @@ void Odometry::repeat(const PreparedFrame& frame, OdometryOutput& output) {
 }
 
 void Odometry::record_last_pose(FrameRecord& record) const {
-  record.state = TrackingState::kTracked;
-  record.keyframe_id = newest().id();
-  record.T_keyframe_frame = T_last_ref_.inverse();
-  record.residual_rmse = static_cast<float>(last_rmse_.empty() ? 0 : last_rmse_.front());
-  record.brightness_a = static_cast<float>(last_brightness_.a);
-  record.brightness_b = static_cast<float>(last_brightness_.b);
+  record_pose(newest(), T_last_ref_, last_rmse_.empty() ? 0 : last_rmse_.front(), last_brightness_, record);
 }
 
 void Odometry::handle_loss(const std::string& reason, OdometryOutput& output) {

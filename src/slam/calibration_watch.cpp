@@ -16,9 +16,8 @@ bool CalibrationWatch::is_wrong(const FrameRecord& frame, int done, Pipeline& pi
 
 std::string describe_change(const CameraCalibration& from, const CameraCalibration& to) {
   std::string text = format_text(
-      "the images contradict the calibration: focal lengths %.1f %.1f instead of %.1f %.1f, distortion coefficient "
-      "%.4f "
-      "instead of %.4f",
+      "the images contradict the calibration: focal lengths %.1f %.1f instead of %.1f %.1f, distortion "
+      "coefficient %.4f instead of %.4f",
       to.fx, to.fy, from.fx, from.fy, to.distortion[0], from.distortion[0]);
   if (to.readout_ms != from.readout_ms) {
     text += format_text(", rolling shutter with a readout %.1f ms instead of %.1f ms", to.readout_ms, from.readout_ms);

@@ -53,11 +53,6 @@ struct ResidualJacobian {
   Eigen::Vector2d idepth;
 };
 
-/// How a ray times its inverse depth moves per second of readout that the row of its pixel is away from the middle.
-Eigen::Vector3d readout_velocity(const Keyframe& keyframe, const Eigen::Vector3d& ray, double idepth) {
-  return keyframe.velocity.tail<3>().cross(ray) + keyframe.velocity.head<3>() * idepth;
-}
-
 bool make_jacobian(const CameraModel& lens, const Window& window, int host, int target, const FramePair& pair,
                    const ActivePoint& point, const LensShift& host_shift, ResidualJacobian& J) {
   ProjectionJacobian base;
@@ -74,8 +69,8 @@ bool make_jacobian(const CameraModel& lens, const Window& window, int host, int 
   const double target_row = row_time(camera[1] * p.y() / p.z() + camera[3], window.height);
   shift.col(kLensDof) =
       by_point / p.z() *
-      (target_row * readout_velocity(*window.keyframes[target], p, point.idepth) -
-       row_time(point.v, window.height) * R * readout_velocity(*window.keyframes[host], ray, point.idepth));
+      (target_row * ray_velocity(window.keyframes[target]->velocity, p, point.idepth) -
+       row_time(point.v, window.height) * R * ray_velocity(window.keyframes[host]->velocity, ray, point.idepth));
   J.pixel << base.camera.cast<double>(), camera.head<2>().asDiagonal() * shift, base.pose.cast<double>();
   J.idepth = base.idepth.cast<double>();
   return true;
