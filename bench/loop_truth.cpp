@@ -25,9 +25,9 @@
 
 #include "evaluation/alignment.h"
 #include "evaluation/association.h"
-#include "io/dataset.h"
-#include "io/trajectory_file.h"
 #include "ldso/error.h"
+#include "ldso/io/dataset.h"
+#include "ldso/io/trajectory_file.h"
 
 namespace ldso {
 namespace {

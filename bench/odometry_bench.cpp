@@ -9,15 +9,15 @@
 #include <memory>
 #include <vector>
 
-#include "odometry/alignment_kernels.h"
-#include "odometry/coarse_depth_map.h"
-#include "odometry/coarse_tracker.h"
-#include "odometry/epipolar_tracer.h"
-#include "odometry/search_kernels.h"
-#include "odometry/synthetic_scene.h"
+#include "odometry/depth/epipolar_tracer.h"
+#include "odometry/depth/search_kernels.h"
+#include "odometry/residual/photometric_residual.h"
+#include "odometry/residual/residual_kernels.h"
+#include "odometry/test_synthetic_scene.h"
+#include "odometry/tracking/alignment_kernels.h"
+#include "odometry/tracking/coarse_depth_map.h"
+#include "odometry/tracking/coarse_tracker.h"
 #include "odometry/window/normal_equations.h"
-#include "odometry/window/photometric_residual.h"
-#include "odometry/window/residual_kernels.h"
 #include "odometry/window/window_optimizer.h"
 
 namespace ldso {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "mapping/pose_graph.h"
-#include "mapping/test_pose_graph_scene.h"
+#include "mapping/graph/pose_graph.h"
+#include "mapping/graph/test_pose_graph_scene.h"
 
 namespace ldso {
 namespace {

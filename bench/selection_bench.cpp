@@ -6,7 +6,7 @@
 
 #include "odometry/selection/point_selector.h"
 #include "odometry/selection/selection_kernels.h"
-#include "odometry/selection/selection_test_images.h"
+#include "odometry/selection/test_selection_images.h"
 
 namespace ldso {
 namespace {

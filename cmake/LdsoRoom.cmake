@@ -1,32 +1,41 @@
-# ldso_add_room(<name> SOURCES ... [TESTS ...] [DEPENDS rooms...] [LINK targets...])
-# One static library `ldso_<name>` a room, one test program `<name>_test` from the tests beside the code.
+# Rooms: every folder directly below a part (engine, io, tools, program) is one static library `ldso_<room>` with one
+# test program `<room>_test`. Which file is what is said by its name: *_test.cpp and test_*.cpp are tests, all other
+# .cpp files of the folder are its sources.
+
+# ldso_add_room(<name> [DIR folder] [EXCLUDE patterns...] [DEPENDS rooms...] [LINK targets...] [PRIVATE_LINK targets...]
+#   [TEST_SOURCES files...] [TEST_LINK targets...])
+#     DIR           folder of the room below the current one (default: its name)
+#     EXCLUDE       regular expressions of files that are not built here
+#     TEST_SOURCES  helpers of other rooms' tests that this room's tests use
+# LDSO_PART, LDSO_INCLUDE_ROOT: the part, and the folder that its includes are relative to.
 function(ldso_add_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;TESTS;DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
-  if(ROOM_SOURCES)
-    add_library(ldso_${name} STATIC ${ROOM_SOURCES})
-    set(scope PUBLIC)
-  else()
-    add_library(ldso_${name} INTERFACE)
-    set(scope INTERFACE)
+  cmake_parse_arguments(ROOM "" "DIR" "EXCLUDE;DEPENDS;LINK;PRIVATE_LINK;TEST_SOURCES;TEST_LINK" ${ARGN})
+  if(NOT DEFINED ROOM_DIR)
+    set(ROOM_DIR ${name})
   endif()
-  add_library(ldso::${name} ALIAS ldso_${name})
-  target_include_directories(ldso_${name} ${scope}
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
-    $<INSTALL_INTERFACE:include>)
-  target_compile_features(ldso_${name} ${scope} cxx_std_20)
-  foreach(room IN LISTS ROOM_DEPENDS)
-    target_link_libraries(ldso_${name} ${scope} ldso_${room})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${ROOM_DIR}/*.cpp)
+  foreach(pattern IN LISTS ROOM_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX ${pattern})
   endforeach()
-  target_link_libraries(ldso_${name} ${scope} ${ROOM_LINK})
-  if(ROOM_SOURCES)
-    target_link_libraries(ldso_${name} PRIVATE $<BUILD_INTERFACE:ldso_warnings> ${ROOM_PRIVATE_LINK})
-  endif()
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "(^|/)test_[^/]*\\.cpp$|_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "(^|/)test_[^/]*\\.cpp$|_test\\.cpp$")
+
+  add_library(ldso_${name} STATIC ${sources})
+  add_library(ldso::${name} ALIAS ldso_${name})
+  target_include_directories(ldso_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${LDSO_INCLUDE_ROOT}>
+    $<INSTALL_INTERFACE:include>)
+  target_compile_features(ldso_${name} PUBLIC cxx_std_20)
+  list(TRANSFORM ROOM_DEPENDS PREPEND ldso_)
+  target_link_libraries(ldso_${name} PUBLIC ${ROOM_DEPENDS} ${ROOM_LINK}
+    PRIVATE $<BUILD_INTERFACE:ldso_warnings> ${ROOM_PRIVATE_LINK})
   set_target_properties(ldso_${name} PROPERTIES EXPORT_NAME ${name})
-  set_property(GLOBAL APPEND PROPERTY LDSO_ROOMS ldso_${name})
-  if(LDSO_BUILD_TESTS AND ROOM_TESTS)
-    add_executable(${name}_test ${ROOM_TESTS})
-    target_link_libraries(${name}_test PRIVATE ldso_${name} ldso_warnings GTest::gtest_main)
+  set_property(GLOBAL APPEND PROPERTY LDSO_ROOMS_OF_${LDSO_PART} ldso_${name})
+  if(LDSO_BUILD_TESTS AND tests)
+    add_executable(${name}_test ${tests} ${ROOM_TEST_SOURCES})
+    target_link_libraries(${name}_test PRIVATE ldso_${name} ${ROOM_TEST_LINK} ldso_warnings GTest::gtest_main)
     gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}/")
   endif()
 endfunction()

@@ -8,40 +8,76 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
-# What the files of a room may include beside their own room and include/ldso. A folder inside a room counts as a room
-# of its own where it is listed.
-ROOMS = {
-    "util": [],
-    "geometry": ["util"],
-    "image": ["geometry", "util"],
-    "io": ["image", "geometry", "util"],
-    "odometry/selection": ["image", "geometry", "util"],
-    "odometry/init": ["odometry/selection", "odometry:records", "image", "geometry", "util"],
-    "odometry/window": ["odometry:records", "image", "geometry", "util"],
-    "odometry": ["odometry/selection", "odometry/init", "odometry/window", "image", "geometry", "util"],
-    "place": ["image", "geometry", "util"],
-    "mapping": ["place", "image", "geometry", "util"],
-    "slam": ["mapping", "place", "odometry", "io", "image", "geometry", "util"],
-    "evaluation": ["io", "image", "geometry", "util"],
-    "simulation": ["io", "image", "geometry", "util"],
-    "viewer": ["slam", "io", "image", "geometry", "util"],
-    "app": ["viewer", "simulation", "evaluation", "slam", "mapping", "place", "odometry", "odometry/selection",
-            "odometry/init", "odometry/window", "io", "image", "geometry", "util"],
-}
+# The parts of the project, and the folder that the includes of their files are relative to.
+PARTS = {"engine": "engine", "io": "", "tools": "tools", "program": "program"}
 
-# The plain records of the odometry, on which its window and its start stand ("odometry:records" above).
-ODOMETRY_RECORDS = {"keyframe", "point", "brightness", "residual_pattern", "texel_sampling-inl"}
+# What the files of a room may include beside their own room and include/ldso: the rooms named here and, with each of
+# them, its folders and all that it may include itself. A folder inside a room counts as a room of its own where it is
+# listed; it does not see the room around it.
+ROOMS = {
+    # engine
+    "util": [],
+    "settings": ["util"],
+    "geometry": ["util"],
+    "image": ["geometry", "settings"],
+    "odometry/state": ["image"],
+    "odometry/residual": ["odometry/state"],
+    "odometry/selection": ["image"],
+    "odometry/init": ["odometry/selection", "odometry/state"],
+    "odometry/tracking": ["odometry/residual"],
+    "odometry/window": ["odometry/residual"],
+    "odometry/depth": ["odometry/window"],
+    "odometry": ["odometry/selection", "odometry/init", "odometry/tracking", "odometry/depth"],
+    "place": ["image"],
+    "mapping/map": ["place"],
+    "mapping/matching": ["mapping/map"],
+    "mapping/verification": ["mapping/matching"],
+    "mapping/graph": ["mapping/map"],
+    "mapping": ["mapping/verification", "mapping/graph"],
+    "slam": ["odometry", "mapping"],
+    # io
+    "io/text": ["util"],
+    "io/settings": ["io/text", "settings"],
+    "io/images": ["io/text", "image"],
+    "io/calibration": ["io/images"],
+    "io/maps": ["io/text", "geometry"],
+    "io/datasets": ["io/calibration", "io/maps"],
+    # tools
+    "simulation/rendering": ["image"],
+    "simulation/worlds": ["simulation/rendering", "io/datasets"],
+    "simulation/worlds/street": ["simulation/worlds"],
+    "simulation/sequences": ["simulation/worlds/street", "io/datasets"],
+    "evaluation": ["io/datasets"],
+    "experiment/jobs": ["io/datasets"],
+    "experiment/plan": ["experiment/jobs", "io/settings"],
+    "experiment/results": ["experiment/jobs", "evaluation"],
+    "experiment/summary": ["experiment/results"],
+    "experiment": ["experiment/summary", "experiment/plan"],
+    # program
+    "camera": ["io/datasets"],
+    "running": ["slam", "camera"],
+    "viewer/map": ["io/datasets"],
+    "viewer/recording": ["viewer/map"],
+    "viewer/server": ["viewer/map"],
+    "viewer": ["viewer/recording", "viewer/server"],
+    "terminal": ["running"],
+    "results": ["running", "viewer", "evaluation", "io/settings"],
+    "report": ["results"],
+    "output": ["report", "experiment/jobs"],
+    "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
+    "commands": ["commands/experiment"],
+}
 
 # Libraries that stay inside rooms.
 LIBRARIES = {
-    r"opencv2/": {"io", "place"},
+    r"opencv2/": {"io", "camera", "place"},
     r"zip\.h": {"io", "simulation"},
-    r"yaml-cpp/": {"io", "evaluation", "simulation"},
-    r"nlohmann/": {"io", "evaluation", "app", "viewer"},
-    r"CLI/": {"app"},
+    r"yaml-cpp/": {"io", "experiment", "simulation"},
+    r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
+    r"CLI/": {"commands", "results", "terminal"},
     r"boost/": {"viewer"},
     r"ceres/": {"mapping"},
-    r"hwy/": {"image", "odometry", "odometry/selection", "odometry/init", "odometry/window", "simulation"},
+    r"hwy/": {"image", "odometry", "simulation"},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -71,10 +107,36 @@ def includes(path):
             yield number, match.group(1) == '"', match.group(2)
 
 
+def part_of(path):
+    return path.relative_to(ROOT).parts[0]
+
+
+def include_name(path):
+    """How others include it: "io/text/text_file.h", "odometry/odometry.h"."""
+    return path.relative_to(ROOT / PARTS[part_of(path)]).as_posix()
+
+
 def room_of(name):
-    """The room of a path below src/, e.g. odometry/window of odometry/window/window.h."""
+    """The room of a file by the name it is included by, e.g. odometry/window of odometry/window/gauge.h."""
     parts = name.split("/")
     return max((r for r in ROOMS if parts[:-1][: r.count("/") + 1] == r.split("/")), key=len, default=None)
+
+
+def reach(room):
+    """The rooms that a room may include."""
+    found, waiting = set(), list(ROOMS[room])
+    while waiting:
+        other = waiting.pop()
+        if other not in found:
+            found.add(other)
+            waiting += ROOMS[other]
+    return found
+
+
+def check_room_circles():
+    for room in ROOMS:
+        if room in reach(room):
+            problem(ROOT / "scripts/check_source.py", 1, f"the rooms around {room} may include each other in a circle")
 
 
 def is_test(path):
@@ -83,25 +145,20 @@ def is_test(path):
 
 def may_include(room, target):
     other = room_of(target)
-    if other == room or other in ROOMS[room]:
-        return True
-    if other == "odometry" and "odometry:records" in ROOMS[room]:
-        return pathlib.PurePath(target).stem in ODOMETRY_RECORDS
-    # To include a room from outside is to include any folder of it.
-    return other is not None and room.split("/")[0] != other.split("/")[0] and other.split("/")[0] in ROOMS[room]
+    return other is not None and (other == room or other in reach(room))
 
 
 def check_rooms(path, room):
     for line, quoted, name in includes(path):
         if not quoted:
             continue
-        if name.startswith("ldso/"):
-            if not (ROOT / "include" / name).exists():
-                problem(path, line, f"there is no include/{name}")
-        elif not (ROOT / "src" / name).exists():
-            problem(path, line, f'there is no src/{name}: includes are relative to src/')
+        other = resolve(name)
+        if other is None:
+            problem(path, line, f"there is no {name}: includes are relative to engine/, tools/, program/ or the project")
+        elif name.startswith("ldso/") or (is_test(path) and is_test(other)):
+            pass  # tests share helpers
         elif is_test(path) and name.split("/")[0] == room.split("/")[0]:
-            pass  # the folders of a room share test helpers
+            pass  # and see all of their room
         elif not may_include(room, name):
             problem(path, line, f"{room} must not include {name}: it lies above it (scripts/check_source.py)")
 
@@ -117,14 +174,14 @@ def check_public_header(path):
 def check_libraries(path, room):
     for line, quoted, name in includes(path):
         for pattern, rooms in LIBRARIES.items():
-            if not quoted and re.match(pattern, name) and room not in rooms:
+            if not quoted and re.match(pattern, name) and room.split("/")[0] not in rooms:
                 problem(path, line, f"<{name}> belongs to {', '.join(sorted(rooms))} only")
 
 
 def resolve(name):
-    for base in ("src", "include"):
+    for base in ["include", *PARTS.values()]:
         path = ROOT / base / name
-        if path.exists():
+        if path.is_file() and (base or name.startswith("io/")):
             return path
     return None
 
@@ -170,20 +227,8 @@ def check_pragma_once(path):
         problem(path, 1, "a header begins with #pragma once")
 
 
-def check_built(path):
-    """A test that no CMakeLists.txt names would never run."""
-    folder = path.parent
-    while folder != ROOT:
-        lists = folder / "CMakeLists.txt"
-        name = path.relative_to(folder).as_posix()
-        if lists.exists() and re.search(rf"(?<![\w/.]){re.escape(name)}(?![\w.])", lists.read_text(encoding="utf-8")):
-            return
-        folder = folder.parent
-    problem(path, 1, "no CMakeLists.txt names this file")
-
-
 def check_build_files():
-    files = [*ROOT.glob("CMake*"), *ROOT.glob("cmake/*"), *ROOT.glob("src/**/CMakeLists.txt"),
+    files = [*ROOT.glob("CMake*"), *ROOT.glob("cmake/*"), *(ROOT / f"{part}/CMakeLists.txt" for part in PARTS),
              *ROOT.glob("bench/CMakeLists.txt"), *ROOT.glob("tests/**/CMakeLists.txt")]
     for path in files:
         for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
@@ -231,24 +276,22 @@ def check_one_definition(headers):
 
 def main():
     public = sorted((ROOT / "include").rglob("*.h"))
-    sources = sorted(p for p in (ROOT / "src").rglob("*") if p.suffix in (".h", ".cpp"))
+    sources = sorted(p for part in PARTS for p in (ROOT / part).rglob("*") if p.suffix in (".h", ".cpp"))
     for path in public:
         check_public_header(path)
         check_habits(path, LIBRARY_HABITS)
     for path in sources:
-        room = room_of(path.relative_to(ROOT / "src").as_posix())
+        room = room_of(include_name(path))
         if room is None:
             problem(path, 1, "lies in no room that scripts/check_source.py knows")
             continue
         check_rooms(path, room)
         if not is_test(path):
             check_libraries(path, room)
-            if room != "app":
+            if part_of(path) != "program":
                 check_habits(path, LIBRARY_HABITS)
         if path.stem.endswith("_kernels") and path.suffix == ".cpp":
             check_kernel(path)
-        if path.suffix == ".cpp":
-            check_built(path)
     for path in public + sources:
         check_habits(path, HABITS)
         if path.suffix == ".h":
@@ -257,6 +300,7 @@ def main():
                 check_pragma_once(path)
             check_habits(path, HEADER_HABITS)
     headers = public + [p for p in sources if p.suffix == ".h"]
+    check_room_circles()
     check_include_circles(headers)
     check_one_definition(headers)
     check_build_files()

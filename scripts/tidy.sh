@@ -20,16 +20,17 @@ fi
 files=()
 if [[ ${1:-} == --changed ]]; then
   mapfile -t changed < <({ git diff --name-only --diff-filter=d "${2:-HEAD}"; git ls-files -o --exclude-standard; } |
-    grep -E '^(src|include|bench)/.*\.(h|cpp)$' | sort -u)
+    grep -E '^(engine|io|tools|program|include|bench)/.*\.(h|cpp)$' | sort -u)
   headers=()
   for file in "${changed[@]}"; do
     case $file in
       *.cpp) files+=("$file") ;;
+      io/*.h) headers+=(-e "#include \"$file\"") ;;
       *.h) headers+=(-e "#include \"${file#*/}\"") ;;
     esac
   done
   if ((${#headers[@]} > 0)); then
-    mapfile -t including < <(grep -rlF --include='*.cpp' "${headers[@]}" src bench)
+    mapfile -t including < <(grep -rlF --include='*.cpp' "${headers[@]}" engine io tools program bench)
     files+=("${including[@]}")
   fi
   mapfile -t files < <(printf '%s\n' "${files[@]}" | sort -u | sed '/^$/d')

@@ -4,7 +4,7 @@
 Nearly all the time goes to the headers of Eigen and GoogleTest. So sources of a folder that have the same flags are
 included in one file and looked at together, if they compile together; those that do not (they define the same names)
 go into further batches. Highway kernels, which include themselves, are looked at one by one. BUILD is a configured
-folder; without FILES: all sources of src/ and bench/. Prints findings; ends with 1 if there are any.
+folder; without FILES: all sources of the parts and bench/. Prints findings; ends with 1 if there are any.
 """
 
 import json
@@ -41,11 +41,11 @@ def groups(build, wanted):
     for entry in json.load(open(os.path.join(build, "compile_commands.json"))):
         path = entry["file"]
         name = os.path.relpath(path, ROOT)
-        if not name.startswith(("src/", "bench/")) or path in seen or (wanted and name not in wanted):
+        if not name.startswith(("engine/", "io/", "tools/", "program/", "bench/")) or path in seen or (wanted and name not in wanted):
             continue
         seen.add(path)
         alone = name if "foreach_target" in open(path).read() else ""
-        room = "/".join(os.path.dirname(name).split("/")[:2])
+        room = "/".join(os.path.dirname(name).split("/")[:3])
         found.setdefault((room, flags_of(entry["command"]), name.endswith("_test.cpp"), alone), []).append(path)
     return found
 

@@ -6,11 +6,11 @@ namespace ldso {
 
 // Every group lists its fields once, in visit_fields(): reading, writing and checking use that list.
 // visit(name, value) is called for each field in order; groups call it with the nested group.
-// Sources: [D] Engel et al., Direct Sparse Odometry, PAMI 2018; [L] Gao et al., LDSO, IROS 2018.
+// Sources: DSO is Engel et al., Direct Sparse Odometry, PAMI 2018; LDSO is Gao et al., LDSO, IROS 2018.
 
 enum class SelectionStrategy { kCorners, kGradient, kRandom };
 
-/// Choice of the candidate points of a keyframe [L III-B, D 3.2].
+/// Choice of the candidate points of a keyframe (LDSO III-B, DSO section 3.2).
 struct SelectionSettings {
   SelectionStrategy strategy = SelectionStrategy::kCorners;
   int candidates = 1500;            ///< Wanted number of new candidate points a keyframe.
@@ -34,7 +34,7 @@ struct SelectionSettings {
   }
 };
 
-/// How photometry is used [D 2.1].
+/// How photometry is used (DSO section 2.1).
 struct PhotometrySettings {
   bool use_response = true;    ///< Undo the camera's response if it is known.
   bool use_vignette = true;    ///< Undo the vignette if it is known.
@@ -61,7 +61,7 @@ struct PhotometrySettings {
   }
 };
 
-/// Sliding-window photometric bundle adjustment and marginalization [D 2.3].
+/// Sliding-window photometric bundle adjustment and marginalization (DSO section 2.3).
 struct WindowSettings {
   int iterations = 6;                    ///< At most, for each keyframe.
   double marginalization_weight = 0.25;  ///< Marginalized residuals are correlated: their information is scaled.
@@ -86,7 +86,7 @@ struct WindowSettings {
   }
 };
 
-/// When a frame becomes a keyframe and which keyframes leave the window [D 3.1].
+/// When a frame becomes a keyframe and which keyframes leave the window (DSO section 3.1).
 struct KeyframeSettings {
   int window_min = 5;                ///< Keyframes that stay even if little of them is visible.
   int window_max = 7;                ///< Keyframes in the window.
@@ -110,7 +110,7 @@ struct KeyframeSettings {
   }
 };
 
-/// Two-frame alignment of each new frame [D 3.1].
+/// Two-frame alignment of each new frame (DSO section 3.1).
 struct TrackingSettings {
   double cutoff = 20;           ///< Residuals beyond this are saturated [grey levels]; doubles while most are.
   double good_ratio = 1.5;      ///< A residual within this factor of the last frame's is accepted at once.
@@ -126,7 +126,7 @@ struct TrackingSettings {
   }
 };
 
-/// Epipolar search of immature points and their activation [D 3.2].
+/// Epipolar search of immature points and their activation (DSO section 3.2).
 struct TracingSettings {
   double search_length = 0.027;       ///< Longest search, as a share of width + height.
   double least_quality = 3.0;         ///< Second-best over best energy a point needs to be activated.
@@ -182,7 +182,7 @@ struct InitializerSettings {
   }
 };
 
-/// Loop closing [L III-C, III-D].
+/// Loop closing (LDSO III-C, III-D).
 struct LoopSettings {
   bool enabled = true;             ///< Off: pure odometry.
   std::string vocabulary;          ///< File (own format, DBoW2 text or DBoW3 binary); empty: the built-in one.

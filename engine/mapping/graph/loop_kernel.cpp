@@ -1,0 +1,50 @@
+#include "mapping/graph/loop_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ldso {
+namespace {
+
+constexpr double kMedianChi2 = 6.346;  // of seven degrees of freedom
+constexpr double kNarrowing = 4;       // of the squared size in each step
+constexpr double kMargin = 2;          // of the squared size over the largest chi2, where that still pulls
+
+double largest(const std::vector<double>& chi2) {
+  return chi2.empty() ? 0 : *std::max_element(chi2.begin(), chi2.end());
+}
+
+}  // namespace
+
+double geman_mcclure_cost(double chi2, double kernel_squared) { return chi2 / (1 + chi2 / kernel_squared) / 2; }
+
+double geman_mcclure_weight(double chi2, double kernel_squared) {
+  const double ratio = 1 / (1 + chi2 / kernel_squared);
+  return ratio * ratio;
+}
+
+double loop_variance_factor(std::vector<double> chi2) {
+  if (chi2.empty()) return 1;
+  const auto median = chi2.begin() + static_cast<std::ptrdiff_t>((chi2.size() - 1) / 2);
+  std::nth_element(chi2.begin(), median, chi2.end());
+  return std::max(*median / kMedianChi2, 1.0);
+}
+
+LoopKernel::LoopKernel(double size, const std::vector<double>& chi2, bool graduated)
+    : size_(size), variance_factor_(loop_variance_factor(chi2)), is_final_(!graduated) {
+  const double final_squared = size_ * size_ * variance_factor_;
+  squared_ = graduated ? std::max(final_squared, kMargin * largest(chi2)) : final_squared;
+}
+
+void LoopKernel::narrow(const std::vector<double>& chi2) {
+  if (is_final_) return;
+  // Never much wider than the largest residual: as soon as no loop is left that does not fit, this is the final one.
+  const double next = std::min(squared_ / kNarrowing, kMargin * largest(chi2));
+  variance_factor_ = loop_variance_factor(chi2);
+  const double final_squared = size_ * size_ * variance_factor_;
+  is_final_ = next <= final_squared;
+  squared_ = std::max(final_squared, next);
+}
+
+}  // namespace ldso

@@ -1,0 +1,291 @@
+#include "mapping/loop_closer.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "mapping/map/chain_table.h"
+
+namespace ldso {
+namespace {
+
+/// Share of the windows' information that each of a keyframe's edges carries. Keyframes one to n steps apart are all
+/// linked: between two neighbours l of the edges of length l pass, and if the variance grows with the length they
+/// together hold a stretch as n (n + 1) / 2 chains of direct links would.
+double edge_share(std::ptrdiff_t edges) {
+  const auto n = static_cast<double>(edges);
+  return 2 / (n * (n + 1));
+}
+
+Matrix7d inverse_of(const Matrix7d& covariance) { return covariance.ldlt().solve(Matrix7d::Identity()); }
+
+LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& candidate, const LoopVerification& v) {
+  LoopRecord record;
+  record.keyframe_id = map[index].frame_id;
+  record.candidate_id = map[candidate.index].frame_id;
+  record.reason = v.reason;
+  record.score = candidate.score;
+  record.descriptor_matches = v.num_descriptor_matches;
+  record.pnp_inliers = v.num_pnp_inliers;
+  record.points_in_view = v.num_visible;
+  record.points_seen = v.num_seen;
+  record.inliers = v.sim3.num_inliers;
+  record.inliers_with_depth = v.num_with_depth;
+  record.depth_inliers = v.sim3.num_depth_inliers;
+  record.covered_cells = v.covered_cells;
+  record.patch_inliers = v.num_patch_inliers;
+  record.S_keyframe_candidate = v.sim3.S_current_candidate;
+  record.translation_stddev = v.uncertainty.translation;
+  record.rotation_stddev = v.uncertainty.rotation_rad;
+  record.log_scale_stddev = v.uncertainty.log_scale;
+  return record;
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings)
+    : vocabulary_(std::move(vocabulary)),
+      settings_(settings),
+      detector_(vocabulary_->word_count(), settings.detection) {
+  settings.graph.validate();
+}
+
+void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
+                     const PinholeIntrinsics& camera) {
+  KeyframeFeatures features;
+  {
+    const StageTimer stage(times_, "loops/describe");
+    features = build_features(image, corners, update.points, *vocabulary_);
+    take_out_readout(camera, update.readout, features.features);
+  }
+  const CurrentImage current{image, update.readout};
+  add(update, std::move(features), camera, &current);
+}
+
+void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera,
+                     const CurrentImage* current) {
+  const int index = map_.add(update, std::move(features.features));
+  place(index);
+  std::vector<LoopCandidate> candidates;
+  {
+    const StageTimer stage(times_, "loops/query");
+    candidates = detector_.detect(map_, features.words);
+  }
+  // Places are seen again for a while: not every keyframe has to say so.
+  if (index >= last_accepted_ + settings_.spacing) {
+    const StageTimer stage(times_, "loops/verify");
+    for (const LoopCandidate& candidate : candidates) {
+      if (verify(index, candidate, camera, current)) break;
+    }
+  }
+  map_.forget_depthless(index);
+  if (is_due(index)) optimize();
+}
+
+void LoopCloser::place(int index) {
+  const Sim3d odometry(map_[index].T_world_camera);
+  const std::optional<int> before = map_.before(index);
+  // Not before the graph was optimized: without loops the poses are those of the odometry to the last bit.
+  if (!before || loops_in_graph_ == 0) {
+    corrected_.push_back(odometry);
+    return;
+  }
+  corrected_.push_back(corrected_[*before] * Sim3d(map_[*before].T_world_camera).inverse() * odometry);
+}
+
+bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera,
+                        const CurrentImage* current) {
+  LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_.verification);
+  if (v.accepted && current != nullptr) sharpen(candidate.index, camera, *current, v);
+  records_.push_back(make_record(map_, index, candidate, v));
+  if (!v.accepted) return false;
+  LoopRecord& record = records_.back();
+  for (const LoopMatch& match : v.matches) {
+    if (!match.inlier) continue;
+    const Feature& f = map_[index].features[match.current].feature;
+    record.matches.push_back({match.candidate_pixel.x(), match.candidate_pixel.y(), f.u, f.v});
+  }
+  Hypothesis hypothesis{
+      index, candidate.index, v.sim3.S_current_candidate, inverse_of(v.sim3.information), records_.size() - 1, false};
+  return decide(std::move(hypothesis));
+}
+
+void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const CurrentImage& current,
+                         LoopVerification& verification) const {
+  const std::optional<Sim3Estimate> sharp =
+      sharpen_loop(map_, candidate, camera, current, verification, settings_.sharpening);
+  if (!sharp) return;
+  const auto uncertainty = sim3_uncertainty(sharp->information);
+  if (!uncertainty) return;
+  verification.sim3.S_current_candidate = sharp->S_current_candidate;
+  verification.sim3.information = sharp->information;
+  verification.uncertainty = *uncertainty;
+  verification.num_patch_inliers = sharp->num_inliers;
+}
+
+std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {
+  const double unit = 1 / std::max(map_[hypothesis.current].median_idepth, 1e-9);
+  const Sim3d error = Sim3d::exp(d.x);
+  const Eigen::Vector3d moved =
+      hypothesis.S_current_candidate.translation() - (error.inverse() * hypothesis.S_current_candidate).translation();
+  char text[160];
+  const double far = moved.norm(), most = settings_.max_drift * d.length + unit;
+  if (far > most) {
+    std::snprintf(text, sizeof(text), "the odometry cannot be off by so much: %.3g (at most %.3g)", far, most);
+    return text;
+  }
+  const double angle = d.x.segment<3>(3).norm() * 180 / std::numbers::pi;
+  if (angle > settings_.max_drift_deg) {
+    std::snprintf(text, sizeof(text), "the odometry cannot be turned by so much: %.3g deg", angle);
+    return text;
+  }
+  if (std::abs(d.x[6]) > settings_.max_drift_log_scale) {
+    std::snprintf(text, sizeof(text), "the odometry's scale cannot be off by so much: %.3g", std::exp(d.x[6]));
+    return text;
+  }
+  return {};
+}
+
+LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis& newer, const OdometryChain& to_older,
+                                       const OdometryChain& to_newer) {
+  const Sim3d S = to_older.S_from_to * older.S_current_candidate;
+  const Matrix7d A = to_older.S_from_to.adjoint(), B = S.adjoint();
+  LoopDiscrepancy d;
+  d.x = (newer.S_current_candidate * (S * to_newer.S_from_to).inverse()).log();
+  d.loop_covariance = newer.covariance + A * older.covariance * A.transpose();
+  for (int k = 0; k < 3; ++k) {
+    d.odometry_covariance[k] = to_older.covariance[k] + B * to_newer.covariance[k] * B.transpose();
+  }
+  d.length = to_older.length + to_newer.length;
+  return d;
+}
+
+bool LoopCloser::confirms(const Hypothesis& older, const Hypothesis& newer) const {
+  const std::vector<int> around = map_.covisible(newer.candidate, 3);
+  if (!std::binary_search(around.begin(), around.end(), older.candidate)) return false;
+  const LoopDiscrepancy d =
+      difference(older, newer, map_.chain(newer.current, older.current), map_.chain(older.candidate, newer.candidate));
+  return discrepancy_chi2(d, variance_factors_) < settings_.confirmation_chi2;
+}
+
+bool LoopCloser::decide(Hypothesis hypothesis) {
+  LoopRecord& record = records_[hypothesis.record];
+  const LoopDiscrepancy d = discrepancy(hypothesis.S_current_candidate, hypothesis.covariance,
+                                        map_.chain(hypothesis.current, hypothesis.candidate));
+  record.drift_chi2 = discrepancy_chi2(d, {});
+  record.reason = contradiction(hypothesis, d);
+  if (!record.reason.empty()) return false;
+  bool confirmed = record.inliers >= settings_.strong_inliers;
+  for (Hypothesis& older : hypotheses_) {
+    if (older.current + settings_.confirmation_gap < hypothesis.current) continue;
+    if (older.current == hypothesis.current || !confirms(older, hypothesis)) continue;
+    confirmed = true;
+    if (!older.accepted) accept(older);
+  }
+  record.reason = "no second keyframe shows the same";
+  if (confirmed) accept(hypothesis);
+  hypotheses_.push_back(std::move(hypothesis));
+  return true;
+}
+
+void LoopCloser::accept(Hypothesis& hypothesis) {
+  hypothesis.accepted = true;
+  last_accepted_ = hypothesis.current;
+  records_[hypothesis.record].accepted = true;
+  records_[hypothesis.record].reason.clear();
+  accepted_.push_back(hypothesis);
+}
+
+bool LoopCloser::is_due(int index) const {
+  // The larger the graph, the longer it takes and the less a loop more changes.
+  if (index < last_optimized_ + std::max(settings_.graph_spacing, map_.size() / 20)) return false;
+  for (std::size_t i = loops_in_graph_; i < accepted_.size(); ++i) {
+    const Hypothesis& loop = accepted_[i];
+    const Sim3d S_graph = corrected_[loop.current].inverse() * corrected_[loop.candidate];
+    const Sim3d::Tangent x = (loop.S_current_candidate * S_graph.inverse()).log();
+    const Matrix7d C = variance_factors_.loops * loop.covariance;
+    if (!(x.dot(C.ldlt().solve(x)) < settings_.graph_chi2)) return true;
+  }
+  return false;
+}
+
+void LoopCloser::finish() {
+  if (loops_in_graph_ < accepted_.size()) optimize();
+}
+
+VarianceFactors LoopCloser::learn_variances() const {
+  const ChainTable chains(map_);
+  std::vector<LoopDiscrepancy> with_odometry, between;
+  for (std::size_t i = 0; i < accepted_.size(); ++i) {
+    const Hypothesis& loop = accepted_[i];
+    with_odometry.push_back(
+        discrepancy(loop.S_current_candidate, loop.covariance, chains.between(loop.current, loop.candidate)));
+    if (i == 0) continue;
+    const Hypothesis& last = accepted_[i - 1];
+    between.push_back(difference(last, loop, chains.between(loop.current, last.current),
+                                 chains.between(last.candidate, loop.candidate)));
+  }
+  return estimate_variance_factors(with_odometry, between);
+}
+
+PoseGraph LoopCloser::build_odometry_graph() const {
+  PoseGraph graph(settings_.graph);
+  graph.set_odometry_variance_factors(variance_factors_.odometry);
+  for (int i = 0; i < map_.size(); ++i) {
+    graph.add_keyframe(i, corrected_[i]);
+    const std::vector<Neighbour>& neighbours = map_[i].neighbours;
+    const auto earlier =
+        std::count_if(neighbours.begin(), neighbours.end(), [&](const auto& n) { return n.index < i; });
+    for (const Neighbour& neighbour : neighbours) {
+      if (neighbour.index > i) continue;
+      graph.add_odometry_edge(
+          {i, neighbour.index, Sim3d(neighbour.T_this_other), edge_share(earlier) * inverse_of(neighbour.covariance)});
+    }
+  }
+  return graph;
+}
+
+void LoopCloser::optimize() {
+  const StageTimer timer(times_, "loops/optimize");
+  variance_factors_ = learn_variances();
+  PoseGraph graph = build_odometry_graph();
+  std::vector<std::size_t> record_of_loop;
+  for (const Hypothesis& loop : accepted_) {
+    const Matrix7d information = inverse_of(variance_factors_.loops * loop.covariance);
+    const bool usable = graph.add_loop_edge({loop.current, loop.candidate, loop.S_current_candidate, information});
+    if (usable) record_of_loop.push_back(loop.record);
+  }
+  last_optimized_ = map_.size() - 1;
+  ++optimizations_;
+  loops_in_graph_ = accepted_.size();
+  graph.optimize(last_optimized_);
+  for (std::size_t i = 0; i < record_of_loop.size(); ++i) {
+    records_[record_of_loop[i]].graph_weight = graph.loops()[i].weight;
+  }
+  for (int i = 0; i < map_.size(); ++i) corrected_[i] = graph.S_world_keyframe(i);
+}
+
+Sim3d LoopCloser::correction() const {
+  if (map_.size() == 0) return Sim3d();
+  const int newest = map_.newest();
+  return corrected_[newest] * Sim3d(map_[newest].T_world_camera).inverse();
+}
+
+double LoopCloser::bytes_per_keyframe() const {
+  if (map_.size() == 0) return 0;
+  auto bytes = static_cast<double>(detector_.memory_bytes() + corrected_.size() * sizeof(Sim3d));
+  for (int i = 0; i < map_.size(); ++i) bytes += static_cast<double>(map_.memory_bytes(i));
+  return bytes / map_.size();
+}
+
+std::vector<KeyframePose> LoopCloser::poses() const {
+  std::vector<KeyframePose> poses;
+  for (int i = 0; i < map_.size(); ++i) poses.push_back({map_[i].frame_id, corrected_[i]});
+  return poses;
+}
+
+}  // namespace ldso

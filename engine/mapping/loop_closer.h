@@ -1,0 +1,123 @@
+#pragma once
+
+// The conductor of loop closing: keyframes that left the window in, corrected keyframe poses out. Describes, asks for
+// places seen before, verifies them, and lets the pose graph distribute what they say.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "image/frame.h"
+#include "ldso/calibration.h"
+#include "ldso/records.h"
+#include "ldso/sim3.h"
+#include "mapping/graph/drift_model.h"
+#include "mapping/graph/pose_graph.h"
+#include "mapping/map/feature_builder.h"
+#include "mapping/map/keyframe_map.h"
+#include "mapping/matching/loop_detector.h"
+#include "mapping/verification/loop_sharpener.h"
+#include "mapping/verification/loop_verifier.h"
+#include "place/vocabulary.h"
+#include "util/stopwatch.h"
+
+namespace ldso {
+
+struct LoopCloserSettings {
+  LoopDetectorSettings detection;
+  LoopVerifierSettings verification;
+  LoopSharpenerSettings sharpening;
+  PoseGraphSettings graph;
+  double max_drift = 0.15;           ///< Distance of a loop from the odometry, of the way between both, and
+  double max_drift_deg = 30;         ///< its rotation, that drift can explain.
+  double max_drift_log_scale = 1.5;  ///< And its scale.
+  int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
+  double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
+  int spacing = 2;                   ///< Keyframes from one closed loop to the next, at least.
+  int graph_spacing = 60;            ///< Keyframes from one optimization of the graph to the next, at least.
+  double graph_chi2 = 50;            ///< Squared distance of a new loop from the poses that calls for one.
+  int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
+};
+
+class LoopCloser {
+ public:
+  explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings = {});
+
+  /// A keyframe that left the window, in the order in which they do, with its image and the camera as estimated then.
+  void add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
+           const PinholeIntrinsics& camera);
+
+  /// The same with features that were built before. Without an image loops stay as sharp as their corners.
+  void add(const KeyframeUpdate& update, KeyframeFeatures features, const PinholeIntrinsics& camera,
+           const CurrentImage* current = nullptr);
+
+  /// Takes all loops into account; the last keyframe stays where it is.
+  void finish();
+
+  /// From the odometry's world to the corrected one, at the newest keyframe.
+  Sim3d correction() const;
+
+  /// What is kept for each keyframe, on average.
+  double bytes_per_keyframe() const;
+
+  /// Of all keyframes, in the order in which they were added.
+  std::vector<KeyframePose> poses() const;
+  /// Of the keyframe that was added last. There must be one.
+  KeyframePose newest_pose() const { return {map_[map_.size() - 1].frame_id, corrected_.back()}; }
+  /// How often all poses have changed.
+  int optimizations() const { return optimizations_; }
+  const std::vector<LoopRecord>& loops() const { return records_; }
+  const StageTimes& times() const { return times_; }
+  const KeyframeMap& map() const { return map_; }
+  const VarianceFactors& variance_factors() const { return variance_factors_; }
+
+ private:
+  /// A verified loop.
+  struct Hypothesis {
+    int current = 0, candidate = 0;
+    Sim3d S_current_candidate;
+    Matrix7d covariance;
+    std::size_t record = 0;
+    bool accepted = false;
+  };
+  /// A first corrected pose: that of the keyframe before it, with the odometry's step.
+  void place(int index);
+  /// Whether the candidate stands as the place of the keyframe, for now or for good.
+  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera, const CurrentImage* current);
+  /// The similarity from grey levels instead of corners, if they agree on one.
+  void sharpen(int candidate, const PinholeIntrinsics& camera, const CurrentImage& current,
+               LoopVerification& verification) const;
+  /// Why drift cannot explain it; empty if it can.
+  std::string contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;
+  /// Of what two hypotheses say of the newer one's similarity.
+  static LoopDiscrepancy difference(const Hypothesis& older, const Hypothesis& newer, const OdometryChain& to_older,
+                                    const OdometryChain& to_newer);
+  bool confirms(const Hypothesis& older, const Hypothesis& newer) const;
+  bool decide(Hypothesis hypothesis);
+  void accept(Hypothesis& hypothesis);
+  /// Whether the graph is so far from what the newest loops say that it should not wait for more of them.
+  bool is_due(int index) const;
+  VarianceFactors learn_variances() const;
+  PoseGraph build_odometry_graph() const;
+  void optimize();
+
+  std::shared_ptr<const Vocabulary> vocabulary_;
+  LoopCloserSettings settings_;
+  KeyframeMap map_;
+  LoopDetector detector_;
+  PoseGraph odometry_graph_;      ///< Without loops.
+  std::vector<Sim3d> corrected_;  ///< Poses of the keyframes.
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
+  std::vector<LoopRecord> records_;
+  VarianceFactors variance_factors_;
+  int last_accepted_ = -1000;   ///< Keyframe of the last closed loop.
+  int last_optimized_ = -1000;  ///< Newest keyframe when the graph was optimized last.
+  int optimizations_ = 0;
+  std::size_t loops_in_graph_ = 0;  ///< Those that the corrected poses take account of.
+  StageTimes times_;
+};
+
+}  // namespace ldso

@@ -1,0 +1,290 @@
+#include "mapping/verification/loop_verifier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "geometry/pinhole_projection.h"
+#include "mapping/map/local_map.h"
+#include "mapping/map/patch.h"
+#include "mapping/matching/inlier_spread.h"
+
+namespace ldso {
+namespace {
+
+/// What verification works on: the same for all its steps.
+struct Scene {
+  const KeyframeMap& map;
+  int current, candidate;
+  const PinholeIntrinsics& camera;
+  const LoopVerifierSettings& settings;
+  /// Features of the current keyframe, with the depths that its neighbours lend.
+  std::vector<MapFeature> seen;
+};
+
+Sim3Correspondence correspondence(const Scene& scene, const UncertainPoint& point, int feature) {
+  const MapFeature& seen = scene.seen[feature];
+  Sim3Correspondence c;
+  c.point = point;
+  c.pixel = {seen.feature.u, seen.feature.v};
+  c.sigma_px = scene.settings.sigma_px;
+  c.idepth = seen.idepth;
+  c.idepth_stddev = seen.idepth_stddev;
+  return c;
+}
+
+/// Matches of the local map's points by descriptors alone, keyframe by keyframe; a feature of the current keyframe
+/// keeps its most similar partner. Too few with the candidate itself: none.
+std::vector<LoopMatch> match_blindly(const Scene& scene) {
+  std::vector<int> best(scene.seen.size(), scene.settings.matching.max_distance + 1);
+  std::vector<LoopMatch> of(scene.seen.size());
+  const auto match_with = [&](int keyframe) {
+    const std::vector<FeatureMatch> found =
+        match_descriptors(scene.map[keyframe].features, scene.seen, scene.settings.matching);
+    for (const FeatureMatch& m : found) {
+      const bool has_depth = scene.map[keyframe].features[m.a].idepth > 0;
+      if (!has_depth || m.distance >= best[m.b]) continue;
+      best[m.b] = m.distance;
+      of[m.b] = {.keyframe = keyframe, .feature = m.a, .current = m.b};
+    }
+    return static_cast<int>(found.size());
+  };
+  if (match_with(scene.candidate) < scene.settings.min_own_matches) return {};
+  for (const Neighbour& neighbour : scene.map[scene.candidate].neighbours) match_with(neighbour.index);
+  std::vector<LoopMatch> matches;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (best[i] <= scene.settings.matching.max_distance) matches.push_back(of[i]);
+  }
+  return matches;
+}
+
+/// Of points of the local map; those of neighbours are moved to the candidate's frame.
+std::vector<Sim3Correspondence> correspondences_of(const Scene& scene, const std::vector<LoopMatch>& matches) {
+  std::vector<Sim3Correspondence> result;
+  for (const LoopMatch& match : matches) {
+    const UncertainPoint own = own_point(scene.map, scene.camera, match.keyframe, match.feature);
+    const auto& neighbours = scene.map[scene.candidate].neighbours;
+    const auto host = std::find_if(neighbours.begin(), neighbours.end(),
+                                   [&](const Neighbour& neighbour) { return neighbour.index == match.keyframe; });
+    const SE3d T_candidate_host = host != neighbours.end() ? host->T_this_other : SE3d();
+    result.push_back(correspondence(scene, Sim3d(T_candidate_host) * own, match.current));
+  }
+  return result;
+}
+
+std::optional<PnpResult> solve_pnp(const Scene& scene, const std::vector<Sim3Correspondence>& matches) {
+  std::vector<PnpCorrespondence> pnp;
+  for (const Sim3Correspondence& c : matches) pnp.push_back({c.point.mean, c.pixel, c.sigma_px});
+  PnpSettings settings = scene.settings.pnp;
+  settings.min_inliers = scene.settings.min_pnp_inliers;
+  return pnp_ransac(pnp, scene.camera, settings);
+}
+
+/// The scale by the inliers with depth on both sides, or else by all that have it.
+std::optional<Sim3d> first_similarity(const Scene& scene, const std::vector<LoopMatch>& matches, const PnpResult& pnp) {
+  const std::vector<Sim3Correspondence> all = correspondences_of(scene, matches);
+  std::vector<Sim3Correspondence> agreeing;
+  for (const int i : pnp.inliers) agreeing.push_back(all[i]);
+  const std::optional<Sim3d> initial = initial_sim3(agreeing, pnp.T_camera_points);
+  return initial ? initial : initial_sim3(all, pnp.T_camera_points);
+}
+
+/// Where the local map should appear in the current keyframe; `index` of each in `points`.
+struct Predictions {
+  std::vector<PredictedPoint> points;
+  std::vector<int> index;
+};
+
+Predictions predict(const Scene& scene, const std::vector<LocalPoint>& points, const Sim3d& S, double radius) {
+  Predictions result;
+  // By how much the image is turned: the candidate's x axis seen by the current camera.
+  const Eigen::Vector3d axis = S.rotation() * Eigen::Vector3d::UnitX();
+  const double turn = std::atan2(axis.y(), axis.x());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = S * points[i].point.mean;
+    if (!(p.z() > 0)) continue;
+    const Eigen::Vector2d pixel = project(scene.camera, p);
+    const bool inside =
+        pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= scene.camera.width - 1 && pixel.y() <= scene.camera.height - 1;
+    if (!inside) continue;
+    const Feature& feature = scene.map[points[i].keyframe].features[points[i].feature].feature;
+    PredictedPoint predicted;
+    predicted.pixel = pixel.cast<float>();
+    predicted.radius = static_cast<float>(radius);
+    predicted.descriptor = feature.descriptor;
+    predicted.angle = feature.angle + static_cast<float>(turn);
+    result.points.push_back(predicted);
+    result.index.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+/// Many corners of the current keyframe never became points of its own because points of its neighbours were there
+/// already: these lend them their depth.
+void borrow_depths(Scene& scene) {
+  std::vector<LocalPoint> points;
+  add_points_of_neighbours(scene.map, scene.camera, scene.current, points);
+  const Predictions predictions = predict(scene, points, Sim3d(), scene.settings.own_radius_px);
+  for (const FeatureMatch& match : match_by_projection(predictions.points, scene.seen)) {
+    MapFeature& feature = scene.seen[match.b];
+    if (feature.idepth > 0) continue;
+    const UncertainPoint& point = points[predictions.index[match.a]].point;
+    const double z = point.mean.z();
+    feature.idepth = static_cast<float>(1 / z);
+    feature.idepth_stddev = static_cast<float>(std::sqrt(point.covariance(2, 2)) / (z * z));
+  }
+}
+
+/// Good enough to search around.
+Sim3Settings rough(Sim3Settings settings) {
+  settings.max_robust_rounds = std::min(settings.max_robust_rounds, 2);
+  settings.max_inlier_rounds = std::min(settings.max_inlier_rounds, 2);
+  settings.max_iterations = std::min(settings.max_iterations, 6);
+  return settings;
+}
+
+/// Searches the local map in the current keyframe around where `S` puts it, and estimates anew.
+bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius, const Sim3Settings& settings,
+            LoopVerification& result) {
+  const Sim3d S = result.sim3.S_current_candidate;
+  const Predictions predictions = predict(scene, points, S, radius);
+  std::vector<Sim3Correspondence> correspondences;
+  result.matches.clear();
+  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen)) {
+    const LocalPoint& point = points[predictions.index[m.a]];
+    const Eigen::Vector2d pixel = project(scene.camera, point.point.mean);
+    const MapFeature& seen = scene.seen[m.b];
+    result.matches.push_back({point.keyframe, point.feature, m.b, false, pixel.cast<float>(),
+                              Eigen::Vector2f(seen.feature.u, seen.feature.v), seen.idepth, seen.idepth_stddev});
+    correspondences.push_back(correspondence(scene, point.point, m.b));
+  }
+  result.sim3 = estimate_sim3(correspondences, scene.camera, S, settings);
+  result.num_with_depth = 0;
+  for (std::size_t i = 0; i < result.matches.size(); ++i) {
+    result.matches[i].inlier = result.sim3.is_inlier[i];
+    result.num_with_depth += result.sim3.is_inlier[i] && correspondences[i].idepth > 0;
+  }
+  return result.sim3.status == Sim3Status::kOk;
+}
+
+/// In the current keyframe.
+std::vector<Eigen::Vector2d> inlier_pixels(const Scene& scene, const LoopVerification& result) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (const LoopMatch& match : result.matches) {
+    const Feature& feature = scene.seen[match.current].feature;
+    if (match.inlier) pixels.emplace_back(feature.u, feature.v);
+  }
+  return pixels;
+}
+
+/// How much of what the candidate saw is there: its own points that should be in view, and those of them where a corner
+/// was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
+void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, const std::vector<Eigen::Vector2d>& found,
+                LoopVerification& result) {
+  const double radius = scene.settings.final_radius_px;
+  const Predictions predictions = predict(scene, points, result.sim3.S_current_candidate, radius);
+  for (std::size_t i = 0; i < predictions.points.size(); ++i) {
+    if (points[predictions.index[i]].keyframe != scene.candidate) continue;
+    ++result.num_visible;
+    result.num_seen += std::any_of(found.begin(), found.end(), [&](const Eigen::Vector2d& pixel) {
+      return (pixel.cast<float>() - predictions.points[i].pixel).squaredNorm() < radius * radius;
+    });
+  }
+}
+
+std::string refusal(const char* what, double value, const char* limit_word, double limit) {
+  char text[160];
+  std::snprintf(text, sizeof(text), "%s: %.3g (%s %.3g)", what, value, limit_word, limit);
+  return text;
+}
+
+/// Whether too few matches agree on the similarity; empty if they are enough.
+std::string lack_of_support(const LoopVerifierSettings& s, const LoopVerification& result) {
+  const Sim3Estimate& sim3 = result.sim3;
+  if (sim3.num_inliers < s.min_inliers) return refusal("inliers", sim3.num_inliers, "at least", s.min_inliers);
+  if (!sim3.scale_determined || sim3.num_depth_inliers < s.min_depth_inliers) {
+    return refusal("inliers with depth on both sides", sim3.num_depth_inliers, "at least", s.min_depth_inliers);
+  }
+  return {};
+}
+
+/// Why the similarity must not be believed though enough matches agree on it; empty if it may.
+std::string doubt(const Scene& scene, const std::vector<Eigen::Vector2d>& pixels, LoopVerification& result) {
+  const LoopVerifierSettings& s = scene.settings;
+  const Sim3Estimate& sim3 = result.sim3;
+  const double depth_share = static_cast<double>(sim3.num_depth_inliers) / std::max(1, result.num_with_depth);
+  if (depth_share < s.min_depth_share) {
+    return refusal("share of the depths that fit", depth_share, "at least", s.min_depth_share);
+  }
+  const InlierSpread spread = inlier_spread(pixels, scene.camera);
+  result.covered_cells = spread.covered_cells;
+  if (spread.covered_cells < s.min_covered_cells) {
+    return refusal("share of the image with inliers", spread.covered_cells, "at least", s.min_covered_cells);
+  }
+  const double minor = spread.minor_stddev_px / scene.camera.width;
+  if (minor < s.min_minor_stddev) return refusal("spread of the inliers", minor, "at least", s.min_minor_stddev);
+  const double seen = static_cast<double>(result.num_seen) / std::max(1, result.num_visible);
+  if (seen < s.min_seen_share)
+    return refusal("share of the map in view that is seen", seen, "at least", s.min_seen_share);
+  const auto uncertainty = sim3_uncertainty(sim3.information);
+  if (!uncertainty) return "the relative pose is not determined";
+  result.uncertainty = *uncertainty;
+  const double rotation_deg = uncertainty->rotation_rad * 180 / std::numbers::pi;
+  if (rotation_deg > s.max_rotation_deg) {
+    return refusal("standard deviation of the rotation [deg]", rotation_deg, "at most", s.max_rotation_deg);
+  }
+  if (!(uncertainty->log_scale <= s.max_log_scale)) {
+    return refusal("standard deviation of the log scale", uncertainty->log_scale, "at most", s.max_log_scale);
+  }
+  const double translation = uncertainty->translation * scene.map[scene.current].median_idepth;
+  if (translation > s.max_translation) {
+    return refusal("standard deviation of the translation over the depth", translation, "at most", s.max_translation);
+  }
+  return {};
+}
+
+}  // namespace
+
+LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                             const LoopVerifierSettings& settings) {
+  Scene scene{map, current, candidate, camera, settings, map[current].features};
+  LoopVerification result;
+  result.matches = match_blindly(scene);
+  result.num_descriptor_matches = static_cast<int>(result.matches.size());
+  if (result.num_descriptor_matches < settings.min_matches) {
+    result.reason = refusal("matches by descriptors", result.num_descriptor_matches, "at least", settings.min_matches);
+    return result;
+  }
+  const std::optional<PnpResult> pnp = solve_pnp(scene, correspondences_of(scene, result.matches));
+  if (!pnp) {
+    result.reason = "no camera pose explains the matches (PnP)";
+    return result;
+  }
+  result.num_pnp_inliers = static_cast<int>(pnp->inliers.size());
+  borrow_depths(scene);
+  const std::optional<Sim3d> initial = first_similarity(scene, result.matches, *pnp);
+  if (!initial) {
+    result.reason = "no match has depth on both sides";
+    return result;
+  }
+  result.sim3.S_current_candidate = *initial;
+  const std::vector<LocalPoint> points = local_map(map, camera, candidate);
+  const std::array<std::pair<double, Sim3Settings>, 2> steps = {
+      {{settings.search_radius_px, rough(settings.sim3)}, {settings.final_radius_px, settings.sim3}}};
+  for (const auto& [radius, sim3] : steps) {
+    const bool found = refine(scene, points, radius, sim3, result);
+    result.reason = found ? lack_of_support(settings, result) : "no similarity explains the matches of the local map";
+    if (!result.reason.empty()) return result;
+  }
+  const std::vector<Eigen::Vector2d> pixels = inlier_pixels(scene, result);
+  count_seen(scene, points, pixels, result);
+  result.reason = doubt(scene, pixels, result);
+  result.accepted = result.reason.empty();
+  return result;
+}
+
+}  // namespace ldso

@@ -1,0 +1,53 @@
+#pragma once
+
+// The state that the sliding-window optimization works on: keyframes, intrinsics, and the prior that
+// marginalized points and keyframes left behind.
+
+#include <memory>
+#include <vector>
+
+#include "ldso/calibration.h"
+#include "odometry/state/keyframe.h"
+#include "odometry/state/window_prior.h"
+
+namespace ldso {
+
+using CameraVector = Eigen::Matrix<double, kCameraDof, 1>;
+
+struct Window {
+  int width = 0;
+  int height = 0;
+  double readout_s = 0;                            ///< Of a rolling shutter, first row to last; 0: global shutter.
+  CameraVector camera = CameraVector::Zero();      ///< fx, fy, cx, cy at the current estimate [px].
+  CameraVector camera_lin = CameraVector::Zero();  ///< Where Jacobians are taken.
+  CameraVector camera_backup = CameraVector::Zero();
+  CameraVector camera_prior = CameraVector::Zero();  ///< Precision of a prior around camera_lin.
+  std::vector<std::unique_ptr<Keyframe>> keyframes;  ///< Oldest first.
+  WindowPrior prior;
+  Eigen::MatrixXd hessian;  ///< Of all variables, inverse depths eliminated, at the last optimization.
+  double rmse = 0;          ///< Of the inliers at the last optimization [grey levels].
+  int front = 0;            ///< Which of the two linearizations in each residual is the accepted one.
+
+  int size() const { return static_cast<int>(keyframes.size()); }
+  int dim() const { return kCameraDof + kFrameDof * size(); }
+  static int offset(int keyframe) { return kCameraDof + kFrameDof * keyframe; }
+
+  /// Motion of a keyframe's camera while its image was read.
+  ReadoutMotion readout(const Keyframe& keyframe) const { return readout_s * keyframe.velocity; }
+
+  PinholeIntrinsics intrinsics() const { return {width, height, camera[0], camera[1], camera[2], camera[3]}; }
+
+  /// Difference of the state from its point of linearization, all variables in order.
+  Eigen::VectorXd delta() const {
+    Eigen::VectorXd d(dim());
+    d.head<kCameraDof>() = camera - camera_lin;
+    for (int i = 0; i < size(); ++i) d.segment<kFrameDof>(offset(i)) = keyframes[i]->state.delta;
+    return d;
+  }
+
+  void renumber() {
+    for (int i = 0; i < size(); ++i) keyframes[i]->index = i;
+  }
+};
+
+}  // namespace ldso

@@ -1,0 +1,65 @@
+#include "odometry/tracking/motion_hypotheses.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "odometry/test_synthetic_scene.h"
+
+namespace ldso {
+namespace {
+
+void expect_pose(const SE3d& actual, const SE3d& expected) {
+  EXPECT_LT((actual * expected.inverse()).log().norm(), 1e-9);
+}
+
+class MotionHypotheses : public testing::Test {
+ protected:
+  MotionHypotheses() {
+    std::mt19937 random(4);
+    T_last_ref_ = SE3d::exp(test::random_tangent(random, 0.5, 0.3));
+    T_last_previous_ = SE3d::exp(test::random_tangent(random, 0.1, 0.05));
+    poses_ = motion_hypotheses(T_last_ref_, T_last_previous_);
+  }
+  SE3d T_last_ref_, T_last_previous_;
+  std::vector<SE3d> poses_;
+};
+
+TEST_F(MotionHypotheses, TheFirstIsConstantMotion) {
+  // The motion from the previous to the last frame happens once more.
+  const SE3d T_previous_ref = T_last_previous_.inverse() * T_last_ref_;
+  expect_pose(poses_[0], T_last_ref_ * T_previous_ref.inverse() * T_last_ref_);
+}
+
+TEST_F(MotionHypotheses, ThenDoubleHalfAndNoMotion) {
+  expect_pose(poses_[1], T_last_previous_ * T_last_previous_ * T_last_ref_);
+  const SE3d half = poses_[2] * T_last_ref_.inverse();
+  expect_pose(half * half, T_last_previous_);
+  expect_pose(poses_[3], T_last_ref_);
+  expect_pose(poses_[4], SE3d());
+}
+
+TEST_F(MotionHypotheses, TheRestAreSmallRotationsOfConstantMotion) {
+  ASSERT_EQ((poses_.size() - 5) % 26, 0u);
+  ASSERT_GE(poses_.size(), 5u + 26u);
+  double last = 0;
+  for (std::size_t i = 5; i < poses_.size(); ++i) {
+    const SE3d::Tangent turn = (poses_[i] * poses_[0].inverse()).log();
+    EXPECT_LT(turn.head<3>().norm(), 1e-9);
+    EXPECT_GT(turn.tail<3>().norm(), 1e-3);
+    EXPECT_LT(turn.tail<3>().norm(), 0.2);
+    const double largest = turn.tail<3>().cwiseAbs().maxCoeff();
+    EXPECT_GE(largest, last - 1e-9) << "small rotations come first";
+    last = largest;
+  }
+}
+
+TEST_F(MotionHypotheses, AllDiffer) {
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT((poses_[i] * poses_[j].inverse()).log().norm(), 1e-4) << i << " " << j;
+  }
+}
+
+}  // namespace
+}  // namespace ldso

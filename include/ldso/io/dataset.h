@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ldso/calibration.h"
+#include "ldso/io/trajectory_file.h"
+#include "ldso/raw_frame.h"
+
+namespace ldso {
+
+/// An image sequence with its calibration, whatever its format on disk.
+class Dataset {
+ public:
+  virtual ~Dataset() = default;
+  Dataset(const Dataset&) = delete;
+  Dataset& operator=(const Dataset&) = delete;
+
+  virtual int size() const = 0;
+  /// Decodes frame `index` in [0, size()). May be called from any thread, but from one at a time.
+  /// Throws Error naming the file if the frame is unreadable; other frames can still be read then.
+  virtual RawFrame read(int index) const = 0;
+  virtual double timestamp(int index) const = 0;  ///< [s]
+  virtual const Calibration& calibration() const = 0;
+  /// Poses of this camera, if the sequence carries them; they need not be at the frames' times.
+  virtual std::optional<Trajectory> ground_truth() const = 0;
+  virtual std::string format_name() const = 0;
+  /// What was odd about the sequence but could be worked around.
+  virtual const std::vector<std::string>& warnings() const = 0;
+
+ protected:
+  Dataset() = default;
+};
+
+struct DatasetOptions {
+  /// First frame that is used.
+  int start = 0;
+  /// First frame after `start` that is not used any more; nothing or beyond the sequence: all are. Below zero it counts
+  /// from the sequence's end: -3 leaves the last three frames out.
+  std::optional<int> end = std::nullopt;
+  /// Use every stride-th frame, beginning with `start`.
+  int stride = 1;
+  /// Play from the last to the first used frame; timestamps stay the sequence's own and so decrease.
+  bool reverse = false;
+  /// In camera.txt format; used instead of the sequence's own.
+  std::optional<std::filesystem::path> calibration_file = std::nullopt;
+  /// Frame rate of sequences without times [Hz].
+  std::optional<double> fps = std::nullopt;
+};
+
+/// Recognizes the format of a folder or file and opens it, with start, end, stride and reverse applied.
+/// Throws Error saying what is missing, or what was looked for if the format is not recognized.
+std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
+
+}  // namespace ldso

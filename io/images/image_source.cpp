@@ -1,0 +1,139 @@
+#include "io/images/image_source.h"
+
+#include <zip.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "io/images/image_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Cuts the run of digits at `position` without its leading zeros and moves `position` behind it.
+std::string_view cut_number(std::string_view text, std::size_t& position) {
+  while (position < text.size() && text[position] == '0') ++position;
+  const std::size_t begin = position;
+  while (position < text.size() && is_digit(text[position])) ++position;
+  return text.substr(begin, position - begin);
+}
+
+/// The vignette lies beside the images of a plain folder; names with a dot in front are leftovers of other programs.
+bool is_frame_name(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return has_image_extension(path) && name.front() != '.' && path.stem() != "vignette" &&
+         path.stem() != "vignetteSmoothed";
+}
+
+class ImageFolder final : public ImageSource {
+ public:
+  explicit ImageFolder(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    if (!fs::is_directory(folder_, error)) throw Error(folder_.string(), "is not a folder", "check the path");
+  }
+
+  std::vector<std::string> names() const override {
+    std::vector<std::string> result;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+      if (!entry.is_directory() && is_frame_name(entry.path())) result.push_back(entry.path().filename().string());
+    }
+    std::sort(result.begin(), result.end(), natural_less);
+    return result;
+  }
+
+  std::vector<std::uint8_t> read(const std::string& name) const override { return read_bytes(folder_ / name); }
+  std::string describe(const std::string& name) const override { return (folder_ / name).string(); }
+
+ private:
+  fs::path folder_;
+};
+
+class ImageZip final : public ImageSource {
+ public:
+  explicit ImageZip(fs::path path) : path_(std::move(path)) {
+    int code = 0;
+    archive_.reset(zip_open(path_.c_str(), ZIP_RDONLY, &code));
+    if (archive_) return;
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    const std::string reason = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    throw Error(path_.string(), "cannot be opened as a zip archive (" + reason + ")",
+                "copy it again, or unpack it into a folder images/");
+  }
+
+  std::vector<std::string> names() const override {
+    std::vector<std::string> result;
+    const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+    for (zip_int64_t i = 0; i < count; ++i) {
+      const char* name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
+      if (name != nullptr && is_frame_name(name)) result.emplace_back(name);
+    }
+    std::sort(result.begin(), result.end(), natural_less);
+    return result;
+  }
+
+  std::vector<std::uint8_t> read(const std::string& name) const override {
+    zip_stat_t stat;
+    if (zip_stat(archive_.get(), name.c_str(), 0, &stat) != 0) fail(name);
+    const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(zip_fopen(archive_.get(), name.c_str(), 0),
+                                                                  &zip_fclose);
+    if (!file) fail(name);
+    std::vector<std::uint8_t> bytes(stat.size);
+    const zip_int64_t count = zip_fread(file.get(), bytes.data(), bytes.size());
+    if (count < 0 || static_cast<std::size_t>(count) != bytes.size()) {
+      throw Error(describe(name), "cannot be unpacked (" + std::string(zip_file_strerror(file.get())) + ")",
+                  "copy the archive again");
+    }
+    return bytes;
+  }
+
+  std::string describe(const std::string& name) const override { return path_.string() + ":" + name; }
+
+ private:
+  [[noreturn]] void fail(const std::string& name) const {
+    throw Error(describe(name), "cannot be unpacked (" + std::string(zip_strerror(archive_.get())) + ")",
+                "copy the archive again");
+  }
+
+  struct Discard {
+    void operator()(zip_t* archive) const { zip_discard(archive); }
+  };
+  fs::path path_;
+  std::unique_ptr<zip_t, Discard> archive_;
+};
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string_view number_a = cut_number(a, i);
+      const std::string_view number_b = cut_number(b, j);
+      if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
+      if (number_a != number_b) return number_a < number_b;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+    }
+  }
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;  // Equal but for leading zeros.
+}
+
+std::unique_ptr<ImageSource> open_image_folder(const fs::path& folder) { return std::make_unique<ImageFolder>(folder); }
+
+std::unique_ptr<ImageSource> open_image_zip(const fs::path& archive) { return std::make_unique<ImageZip>(archive); }
+
+}  // namespace ldso

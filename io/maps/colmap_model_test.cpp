@@ -1,0 +1,51 @@
+#include "ldso/io/colmap_model.h"
+
+#include <gtest/gtest.h>
+
+#include "io/datasets/test_sequences.h"
+#include "io/text/text_file.h"
+
+namespace ldso {
+namespace {
+
+TEST(ColmapModel, CamerasKeepTheirLensAndMoveTheirPixelCentresByAHalf) {
+  CameraCalibration camera{CameraModelKind::kPinhole, 640, 480, 500, 510, 319.5, 239.5, {0.1, 0.2, 0.3, 0.4}};
+  EXPECT_EQ(colmap_camera(camera), "PINHOLE 640 480 500 510 320 240");
+  camera.model = CameraModelKind::kFov;
+  EXPECT_EQ(colmap_camera(camera), "FOV 640 480 500 510 320 240 0.1");
+  camera.model = CameraModelKind::kRadTan;
+  EXPECT_EQ(colmap_camera(camera), "OPENCV 640 480 500 510 320 240 0.1 0.2 0.3 0.4");
+  camera.model = CameraModelKind::kKannalaBrandt;
+  EXPECT_EQ(colmap_camera(camera), "OPENCV_FISHEYE 640 480 500 510 320 240 0.1 0.2 0.3 0.4");
+}
+
+ColmapModel two_images() {
+  ColmapModel model;
+  model.camera = {CameraModelKind::kPinhole, 640, 480, 500, 500, 319.5, 239.5, {}};
+  model.points = {{{1, 2, 3}, 10}, {{4, 5, 6}, 20}, {{7, 8, 9}, 30}};
+  model.images = {{"a.png", SE3d(SO3d(), {1, 0, 0}), {{{10, 20}, 0}, {{30.25, 40}, 2}}},
+                  {"b.png", SE3d(), {{{5, 6}, 2}}}};
+  return model;
+}
+
+TEST(ColmapModel, TracksAndObservationsNameEachOther) {
+  const TemporaryFolder folder;
+  write_colmap_model(folder / "sparse/0", two_images());
+  EXPECT_EQ(read_file(folder / "sparse/0/cameras.txt"),
+            "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS\n1 PINHOLE 640 480 500 500 320 240\n");
+  const std::string images = read_file(folder / "sparse/0/images.txt");
+  EXPECT_EQ(images.substr(images.find('\n') + 1),
+            "1 1 0 0 0 -1 0 0 1 a.png\n10.50 20.50 1 30.75 40.50 3\n2 1 0 0 0 0 0 0 1 b.png\n5.50 6.50 3\n");
+  const std::string points = read_file(folder / "sparse/0/points3D.txt");
+  EXPECT_EQ(points.substr(points.find('\n') + 1), "1 1 2 3 10 10 10 -1 1 0\n3 7 8 9 30 30 30 -1 1 1 2 0\n");
+}
+
+TEST(ColmapModel, NamesThatTheFormatCannotHoldAreRefused) {
+  const TemporaryFolder folder;
+  ColmapModel model = two_images();
+  model.images[1].name = "a b.png";
+  EXPECT_THROW(write_colmap_model(folder / "sparse", model), Error);
+}
+
+}  // namespace
+}  // namespace ldso

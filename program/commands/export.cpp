@@ -1,0 +1,155 @@
+#include "commands/export.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ldso/error.h"
+#include "ldso/io/pcd_file.h"
+#include "ldso/io/ply_file.h"
+#include "ldso/io/trajectory_file.h"
+#include "output/colmap_export.h"
+#include "output/finished_run.h"
+#include "output/run_files.h"
+#include "viewer/recording/recorded_map.h"
+#include "viewer/recording/recording_file.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportArguments {
+  fs::path run;
+  std::vector<std::string> formats;
+  std::optional<fs::path> out, sequence;
+  std::string images = "rectified";
+  bool odometry = false;
+  std::optional<double> most_deviation;
+};
+
+/// What the exports are made of, read when it is first asked for.
+class Source {
+ public:
+  explicit Source(const ExportArguments& a) : a_(a), run_(read_finished_run(a.run)) {
+    if (a.sequence) run_.sequence = *a.sequence;
+  }
+
+  const FinishedRun& run() const { return run_; }
+
+  Trajectory trajectory() const {
+    const fs::path odometry = a_.run / "trajectory_odometry.txt";
+    const bool before = a_.odometry && fs::exists(odometry);  // A run without loop closing has one trajectory only.
+    return read_tum_trajectory(before ? odometry : a_.run / "trajectory.txt");
+  }
+
+  PlacedMap map() {
+    if (!map_) map_ = read_recorded_map(a_.run / kRecordingName);
+    PlacedMap placed{*map_, map_->corrected};
+    if (a_.odometry) {
+      for (std::size_t i = 0; i < placed.poses.size(); ++i) placed.poses[i] = Sim3d(map_->keyframes[i].T_world_camera);
+    }
+    if (a_.most_deviation) placed.most_deviation = *a_.most_deviation;
+    return placed;
+  }
+
+  std::vector<PlyPoint> cloud() {
+    const PlacedMap placed = map();
+    std::vector<PlyPoint> points;
+    for (std::size_t i = 0; i < placed.poses.size(); ++i) {
+      const protocol::Keyframe& keyframe = placed.map.keyframes[i];
+      for (std::size_t k = 0; k < keyframe.points.size(); ++k) {
+        const float deviation = keyframe.depth_stddev[k];
+        if (!(deviation <= placed.most_deviation)) continue;
+        const Eigen::Vector3f p = (placed.poses[i] * keyframe.points[k].cast<double>()).cast<float>();
+        points.push_back({p.x(), p.y(), p.z(), keyframe.intensity[k], deviation / keyframe.points[k].z()});
+      }
+    }
+    return points;
+  }
+
+ private:
+  const ExportArguments& a_;
+  FinishedRun run_;
+  std::optional<RecordedMap> map_;
+};
+
+ColmapImages parse_images(const std::string& name) {
+  if (name == "original") return ColmapImages::kOriginal;
+  return name == "none" ? ColmapImages::kNone : ColmapImages::kRectified;
+}
+
+struct Format {
+  const char* name;
+  const char* file;  ///< Below the folder of the exports.
+  void (*write)(const fs::path& path, Source& source, const ExportArguments& a);
+};
+
+constexpr std::array<Format, 7> kFormats{{
+    {"ply", "map.ply", [](const fs::path& path, Source& s, const ExportArguments&) { write_ply(path, s.cloud()); }},
+    {"pcd", "map.pcd", [](const fs::path& path, Source& s, const ExportArguments&) { write_pcd(path, s.cloud()); }},
+    {"colmap", "colmap",
+     [](const fs::path& path, Source& s, const ExportArguments& a) {
+       export_colmap(path, s.run(), s.map(), parse_images(a.images));
+     }},
+    {"tum", "trajectory_tum.txt",
+     [](const fs::path& path, Source& s, const ExportArguments&) { write_tum_trajectory(path, s.trajectory()); }},
+    {"kitti", "trajectory_kitti.txt",
+     [](const fs::path& path, Source& s, const ExportArguments&) { write_kitti_poses(path, s.trajectory()); }},
+    {"euroc", "trajectory_euroc.csv",
+     [](const fs::path& path, Source& s, const ExportArguments&) { write_euroc_trajectory(path, s.trajectory()); }},
+    {"csv", "trajectory.csv",
+     [](const fs::path& path, Source& s, const ExportArguments&) { write_csv_trajectory(path, s.trajectory()); }},
+}};
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) names.emplace_back(format.name);
+  return names;
+}
+
+void add_options(CLI::App& command, ExportArguments& a) {
+  command.add_option("run", a.run, "Folder that `ldso run -o` wrote")->required();
+  command
+      .add_option("--format", a.formats, "One or more: ply, pcd, colmap (the map); tum, kitti, euroc, csv (the poses)")
+      ->required()
+      ->delimiter(',')
+      ->check(CLI::IsMember(format_names()));
+  command.add_option("-o,--out", a.out, "Folder for the files instead of export/ in that of the run");
+  command.add_flag("--odometry", a.odometry, "As before loop closing");
+  command
+      .add_option("--max-depth-error", a.most_deviation,
+                  "Leave out points whose inverse depth has a larger standard deviation, relative to it (0.05: 5 %)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--images", a.images, "colmap: images of the keyframes to write and to make the model for")
+      ->check(CLI::IsMember({"rectified", "original", "none"}))
+      ->capture_default_str();
+  command.add_option("--sequence", a.sequence, "Where the sequence is, if it is not where it was");
+}
+
+void export_run(const ExportArguments& a) {
+  Source source(a);
+  const fs::path folder = a.out.value_or(a.run / "export");
+  make_output_folder(folder);
+  for (const Format& format : kFormats) {
+    if (std::find(a.formats.begin(), a.formats.end(), format.name) == a.formats.end()) continue;
+    format.write(folder / format.file, source, a);
+    std::cout << (folder / format.file).string() << "\n";
+  }
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = app.add_subcommand("export", "Write a finished run in the formats of other programs");
+  add_options(*command, *arguments);
+  command->callback([arguments] { export_run(*arguments); });
+}
+
+}  // namespace ldso

@@ -1,0 +1,61 @@
+#include "output/finished_run.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/text/text_file.h"
+#include "ldso/error.h"
+#include "output/run_files.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+PinholeIntrinsics camera_of(const Json& json) {
+  return {json.at("width"), json.at("height"), json.at("fx"), json.at("fy"), json.at("cx"), json.at("cy")};
+}
+
+DatasetOptions options_of(const Json& sequence) {
+  DatasetOptions options;
+  options.start = sequence.at("start");
+  if (!sequence.at("end").is_null()) options.end = sequence.at("end").get<int>();
+  options.stride = sequence.at("stride");
+  options.reverse = sequence.at("reverse");
+  // Runs of older versions do not say these.
+  if (sequence.contains("calib") && !sequence["calib"].is_null())
+    options.calibration_file = sequence["calib"].get<std::string>();
+  if (sequence.contains("fps") && !sequence["fps"].is_null()) options.fps = sequence["fps"].get<double>();
+  return options;
+}
+
+}  // namespace
+
+FinishedRun read_finished_run(const fs::path& folder) {
+  const fs::path path = folder / kRunJson;
+  if (!fs::exists(path))
+    throw Error(folder.string(), "there is no finished run", "give the folder of an `ldso run -o`");
+  FinishedRun run;
+  run.folder = folder;
+  try {
+    const Json json = Json::parse(read_file(path));
+    const Json& sequence = json.at("sequence");
+    run.sequence = sequence.at("path").get<std::string>();
+    run.options = options_of(sequence);
+    run.camera = camera_of(sequence.at("estimated_camera"));
+    if (json.at("self_calibration").at("corrected").get<bool>()) run.options.calibration_file = folder / "camera.txt";
+  } catch (const Json::exception& error) {
+    throw Error(path.string(), std::string("it is damaged (") + error.what() + ")", "run the sequence again");
+  }
+  return run;
+}
+
+std::unique_ptr<Dataset> open_sequence(const FinishedRun& run) {
+  if (!fs::exists(run.sequence)) {
+    throw Error(run.sequence.string(), "the sequence of the run in " + run.folder.string() + " is not there",
+                "say where it is now by --sequence, or go without its images by --images none");
+  }
+  return open_dataset(run.sequence, run.options);
+}
+
+}  // namespace ldso

@@ -1,0 +1,266 @@
+#include "results/run_report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+#include "evaluation/report.h"
+#include "io/settings/settings_json.h"
+#include "ldso/error.h"
+#include "ldso/io/calibration_file.h"
+#include "ldso/io/settings_file.h"
+#include "results/versions.h"
+#include "util/format_text.h"
+
+namespace ldso {
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in kB.
+}
+
+double frames_per_second(const SequenceRun& run) {
+  return run.seconds > 0 ? static_cast<double>(run.result.frames.size()) / run.seconds : 0;
+}
+
+std::int64_t closed_loops(const SlamResult& result) {
+  return std::count_if(result.loops.begin(), result.loops.end(), [](const LoopRecord& loop) { return loop.accepted; });
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Trajectory stamped(const std::vector<TimedPose>& poses) {
+  Trajectory trajectory;
+  trajectory.reserve(poses.size());
+  for (const TimedPose& pose : poses) trajectory.push_back({pose.timestamp, pose.T_world_camera});
+  return trajectory;
+}
+
+Json json_of(const PinholeIntrinsics& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+Json self_calibration_json(const SequenceRun& run) {
+  const CameraCalibration& camera = run.calibration.camera;
+  return {{"passes", run.passes},
+          {"corrected", run.passes > 1},
+          {"camera",
+           {{"model", model_name(camera.model)},
+            {"fx", camera.fx},
+            {"fy", camera.fy},
+            {"cx", camera.cx},
+            {"cy", camera.cy},
+            {"distortion", camera.distortion},
+            {"readout_ms", camera.readout_ms}}}};
+}
+
+/// Of a camera: those that came.
+std::size_t frames_of(const SequenceRun& run, const Dataset& dataset) {
+  const std::size_t dropped = run.live ? static_cast<std::size_t>(run.live->dropped) : 0;
+  return dataset.size() > 0 ? static_cast<std::size_t>(dataset.size()) : run.result.frames.size() + dropped;
+}
+
+Json live_json(const SequenceRun& run) {
+  if (!run.live) return {};
+  return {{"dropped_frames", run.live->dropped},
+          {"longest_gap", run.live->longest_gap},
+          {"mean_latency_ms", run.live->mean_latency_ms},
+          {"worst_latency_ms", run.live->worst_latency_ms},
+          {"calibration_is_wrong", run.better_calibration.has_value()}};
+}
+
+Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
+  const Calibration& calibration = dataset.calibration();
+  const DatasetOptions& options = summary.dataset_options;
+  return {{"path", summary.sequence_path.string()},
+          {"format", dataset.format_name()},
+          {"frames", frames_of(summary.run, dataset)},
+          {"start", options.start},
+          {"end", options.end ? Json(*options.end) : Json()},
+          {"stride", options.stride},
+          {"reverse", options.reverse},
+          {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
+          {"fps", options.fps ? Json(*options.fps) : Json()},
+          {"camera", describe(calibration.camera, calibration.rectification)},
+          {"calibration", calibration.description},
+          {"response_known", calibration.photometric.inverse_response.has_value()},
+          {"vignette_known", !calibration.photometric.vignette.empty()},
+          {"estimated_camera", json_of(summary.run.result.camera)}};
+}
+
+Json counts_json(const RunSummary& summary) {
+  const SlamResult& result = summary.run.result;
+  return {{"frames", result.frames.size()},
+          {"frames_with_pose", summary.trajectory.size()},
+          {"keyframes", summary.keyframes.size()},
+          {"points", summary.points.size()},
+          {"restarts", result.restarts},
+          {"skipped_frames", result.skipped},
+          {"loops_closed", closed_loops(result)},
+          {"loop_candidates", result.loops.size()},
+          {"loop_bytes_per_keyframe", std::lround(result.loop_bytes_per_keyframe)}};
+}
+
+Json variance_factors_json(const VarianceFactors& factors) {
+  return {{"odometry_translation", factors.odometry[0]},
+          {"odometry_rotation", factors.odometry[1]},
+          {"odometry_log_scale", factors.odometry[2]},
+          {"loops", factors.loops}};
+}
+
+Json timing_json(const SequenceRun& run) {
+  Json stages = Json::object();
+  for (const auto& [name, stage] : run.result.stage_times) {
+    stages[name] = {{"calls", stage.calls},
+                    {"total_ms", stage.total_ms},
+                    {"mean_ms", stage.calls > 0 ? stage.total_ms / static_cast<double>(stage.calls) : 0.0},
+                    {"worst_ms", stage.worst_ms}};
+  }
+  return {{"wall_s", run.seconds}, {"frames_per_s", frames_per_second(run)}, {"stages", std::move(stages)}};
+}
+
+Json untracked_json(const RunSummary& summary) {
+  Json stretches = Json::array();
+  for (const UntrackedStretch& stretch : untracked_stretches(summary)) {
+    stretches.push_back({{"first", stretch.first}, {"last", stretch.last}, {"reason", stretch.reason}});
+  }
+  return stretches;
+}
+
+Json evaluation_json(const RunEvaluation& evaluation) {
+  if (evaluation.result) return Json::parse(result_json(*evaluation.result));
+  return {{"problem", evaluation.problem}};
+}
+
+std::string evaluation_text(const RunSummary& summary) {
+  const RunEvaluation& evaluation = summary.evaluation;
+  if (!evaluation.truth) return "";
+  if (!evaluation.result) return "not evaluated: " + evaluation.problem + "\n";
+  const EvaluationResult& r = *evaluation.result;
+  std::string text =
+      format_text("ATE (Sim3)     %.6f m rmse, %.4f %% of the path of %.2f m (%zu of %zu poses compared)\n",
+                  r.absolute.rmse, r.ate_percent_of_path(), r.path_length, r.pairs.size(), r.estimate_poses);
+  if (!summary.is_corrected() || !summary.odometry_evaluation.result) return text;
+  return text +
+         format_text("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
+}
+
+std::string calibration_text(const SequenceRun& run) {
+  if (run.passes == 1) return "";
+  const CameraCalibration& camera = run.calibration.camera;
+  std::string text = format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f", camera.fx,
+                                 camera.fy, camera.distortion[0]);
+  if (camera.readout_ms != 0) text += format_text(", rolling shutter %.1f ms", camera.readout_ms);
+  return text + " (camera.txt)\n";
+}
+
+std::string live_text(const SequenceRun& run) {
+  if (!run.live) return "";
+  return format_text(
+      "live           %d frames dropped, at most %d in a row; %.0f ms from a frame to its pose, at most %.0f\n",
+      run.live->dropped, run.live->longest_gap, run.live->mean_latency_ms, run.live->worst_latency_ms);
+}
+
+std::string loops_text(const RunSummary& summary) {
+  if (!summary.settings.loops.enabled) return "loops          off\n";
+  const std::int64_t closed = closed_loops(summary.run.result);
+  const auto candidates = static_cast<std::int64_t>(summary.run.result.loops.size());
+  return format_text("loops          %lld closed, %lld candidates refused\n", static_cast<long long>(closed),
+                     static_cast<long long>(candidates - closed));
+}
+
+}  // namespace
+
+void collect_results(RunSummary& summary) {
+  const SlamResult& result = summary.run.result;
+  const std::vector<TimedPose> poses = result.trajectory();
+  summary.trajectory = stamped(poses);
+  for (const TimedPose& pose : poses) summary.posed.push_back(pose.frame_id);
+  summary.keyframes = stamped(result.keyframe_trajectory());
+  summary.points = result.points();
+  summary.odometry_trajectory = stamped(result.trajectory(Correction::kNone));
+  summary.odometry_points = result.points(Correction::kNone);
+}
+
+std::vector<UntrackedStretch> untracked_stretches(const RunSummary& summary) {
+  const std::unordered_set<std::int64_t> posed(summary.posed.begin(), summary.posed.end());
+  std::vector<UntrackedStretch> stretches;
+  for (const FrameRecord& frame : summary.run.result.frames) {
+    if (posed.contains(frame.frame_id)) continue;
+    const std::string reason =
+        frame.state == TrackingState::kTracked ? "its pose or that of its keyframe is not finite" : frame.reason;
+    const bool continues = !stretches.empty() && stretches.back().last + 1 == frame.frame_id &&
+                           without_numbers(stretches.back().reason) == without_numbers(reason);
+    if (continues) {
+      stretches.back().last = frame.frame_id;
+      stretches.back().reason = reason;
+    } else {
+      stretches.push_back({frame.frame_id, frame.frame_id, reason});
+    }
+  }
+  return stretches;
+}
+
+RunEvaluation evaluate_run(const Trajectory& trajectory, const Dataset& dataset) {
+  RunEvaluation evaluation;
+  evaluation.truth = dataset.ground_truth();
+  if (!evaluation.truth) {
+    evaluation.problem = "the sequence carries no ground truth";
+    return evaluation;
+  }
+  if (trajectory.empty()) {
+    evaluation.problem = "there is no pose";
+    return evaluation;
+  }
+  try {
+    evaluation.result = evaluate_trajectory(trajectory, *evaluation.truth);
+  } catch (const Error& error) {
+    evaluation.problem = error.what();
+  }
+  return evaluation;
+}
+
+std::string summary_text(const RunSummary& summary) {
+  const SlamResult& result = summary.run.result;
+  std::string text =
+      format_text("frames         %zu, %zu with a pose, %d skipped, %d restarts\n", result.frames.size(),
+                  summary.trajectory.size(), result.skipped, result.restarts) +
+      format_text("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
+      format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
+                  frames_per_second(summary.run), peak_memory_mb());
+  return text + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
+}
+
+Json run_json(const RunSummary& summary, const Dataset& dataset) {
+  const SequenceRun& run = summary.run;
+  Json json;
+  json["versions"] = versions_json();
+  json["sequence"] = sequence_json(summary, dataset);
+  json["settings"] = settings_to_json(summary.settings);
+  json["self_calibration"] = self_calibration_json(run);
+  json["counts"] = counts_json(summary);
+  json["live"] = live_json(run);
+  json["first_tracked_frame"] = summary.posed.empty() ? Json() : Json(summary.posed.front());
+  json["initialized_at"] = run.result.initializations;
+  json["interrupted"] = run.stopped;
+  json["error"] = run.error.empty() ? Json() : Json(run.error);
+  json["timing"] = timing_json(run);
+  json["peak_memory_mb"] = peak_memory_mb();
+  json["untracked"] = untracked_json(summary);
+  json["warnings"] = summary.warnings;
+  json["evaluation"] = evaluation_json(summary.evaluation);
+  if (summary.is_corrected()) {
+    json["loop_variance_factors"] = variance_factors_json(summary.run.result.loop_variance_factors);
+    json["evaluation_odometry"] = evaluation_json(summary.odometry_evaluation);
+  }
+  return json;
+}
+
+}  // namespace ldso

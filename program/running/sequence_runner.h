@@ -1,0 +1,57 @@
+#pragma once
+
+// A whole sequence through the pipeline, offline: every frame, in order, decoded and preprocessed ahead on a thread
+// of its own; begun anew where its calibration turns out to be wrong.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ldso/io/dataset.h"
+#include "slam/pipeline.h"
+
+namespace ldso {
+
+struct RunProgress {
+  int done = 0;   ///< Frames, this one included.
+  int count = 0;  ///< 0 if nobody knows.
+  int keyframes = 0;
+  const FrameRecord& frame;
+  int dropped = 0;  ///< Of `done`, those that came too fast (live runs).
+};
+
+struct RunOptions {
+  std::function<void(const RunProgress&)> progress;  ///< After each frame, on the calling thread.
+  const std::atomic<bool>* stop = nullptr;           ///< Once true, the run ends after the frame it is at.
+  std::shared_ptr<RunObserver> observer = nullptr;   ///< Hears of everything while it happens.
+};
+
+/// What became of frames that came at times of their own.
+struct LiveFigures {
+  int dropped = 0;             ///< Frames that came while others waited.
+  int longest_gap = 0;         ///< Most of them in a row.
+  double mean_latency_ms = 0;  ///< From the arrival of a frame to its pose.
+  double worst_latency_ms = 0;
+};
+
+struct SequenceRun {
+  SlamResult result;
+  Calibration calibration;  ///< What the frames were read with in the end: the dataset's or a better one.
+  int passes = 1;           ///< How often the sequence was begun: once more for each correction of the calibration.
+  bool stopped = false;     ///< Before its last frame, by the flag.
+  std::string error;        ///< Why it ended early otherwise; what was done until then is in `result`.
+  double seconds = 0;       ///< Wall time of all frames.
+  std::optional<LiveFigures> live = std::nullopt;  ///< Of a live run.
+  /// What a live run found to be better, but could not begin anew with.
+  std::optional<Calibration> better_calibration = std::nullopt;
+};
+
+/// A frame that cannot be read or has a wrong size is skipped with its reason; the run goes on. If the first frames
+/// contradict the calibration, it is corrected and the run begins anew. Throws Error if the calibration or a setting
+/// makes no sense.
+SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const LogSink& log = {},
+                         const RunOptions& options = {});
+
+}  // namespace ldso

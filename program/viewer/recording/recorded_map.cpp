@@ -1,0 +1,44 @@
+#include "viewer/recording/recorded_map.h"
+
+#include <algorithm>
+#include <map>
+
+#include "io/images/image_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+
+RecordedMap decode_recorded_map(const Bytes& recording, const std::string& name) {
+  using protocol::MessageType;
+  RecordedMap map;
+  std::map<std::int64_t, Sim3d> corrected;
+  Sim3d correction;
+  bool has_begun = false;
+  for (const protocol::Message& message : protocol::split(recording, name)) {
+    if (message.type == MessageType::kHello) {
+      map = {};
+      map.camera = protocol::decode_hello(message.payload, name).camera;
+      has_begun = true;
+    } else if (message.type == MessageType::kKeyframe) {
+      map.keyframes.push_back(protocol::decode_keyframe(message.payload, name));
+    } else if (message.type == MessageType::kPoses) {
+      const protocol::Poses poses = protocol::decode_poses(message.payload, name);
+      correction = poses.correction;
+      for (const KeyframePose& pose : poses.poses) corrected[pose.keyframe_id] = pose.S_world_keyframe;
+    }
+  }
+  if (!has_begun) throw Error(name, "it is no recording of ldso", "give one that `ldso run` wrote");
+  std::stable_sort(map.keyframes.begin(), map.keyframes.end(),
+                   [](const auto& a, const auto& b) { return a.id < b.id; });
+  for (const protocol::Keyframe& keyframe : map.keyframes) {
+    const auto pose = corrected.find(keyframe.id);
+    map.corrected.push_back(pose != corrected.end() ? pose->second : correction * Sim3d(keyframe.T_world_camera));
+  }
+  return map;
+}
+
+RecordedMap read_recorded_map(const std::filesystem::path& path) {
+  return decode_recorded_map(read_bytes(path), path.string());
+}
+
+}  // namespace ldso

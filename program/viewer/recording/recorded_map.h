@@ -1,0 +1,26 @@
+#pragma once
+
+// The map of a finished run out of its recording: keyframes, where they are in the end, and their points.
+
+#include <filesystem>
+#include <vector>
+
+#include "viewer/map/protocol.h"
+
+namespace ldso {
+
+struct RecordedMap {
+  PinholeIntrinsics camera;  ///< Of the rectified images, as known when the run began.
+  /// In the order of their ids, with the poses of the odometry.
+  std::vector<protocol::Keyframe> keyframes;
+  /// After loop closing, in the same order. Their units differ: points of a keyframe are to be multiplied with them.
+  std::vector<Sim3d> corrected;
+};
+
+/// Throws Error if the file cannot be read, is damaged or no recording.
+RecordedMap read_recorded_map(const std::filesystem::path& path);
+
+/// The same from the bytes of a recording; `name` is what errors call it.
+RecordedMap decode_recorded_map(const Bytes& recording, const std::string& name);
+
+}  // namespace ldso

@@ -1,9 +1,0 @@
-#include "viewer/report_script.h"
-
-// Of a program that was built without its viewer.
-
-namespace ldso {
-
-std::string_view report_script() { return {}; }
-
-}  // namespace ldso

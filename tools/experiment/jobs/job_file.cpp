@@ -1,0 +1,66 @@
+#include "experiment/jobs/job_file.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "io/text/text_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFileName = "job.json";
+
+Json json_of(const ExperimentJob& job) {
+  Json json;
+  visit_identity(job, [&](const char* name, const auto& value) { json[name] = value; });
+  json["metric"] = to_string(job.metric);
+  json["path"] = job.path.string();
+  json["ground_truth"] = job.ground_truth ? Json(job.ground_truth->string()) : Json();
+  json["arguments"] = job.arguments;
+  return json;
+}
+
+ExperimentJob job_of(const Json& json) {
+  ExperimentJob job;
+  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
+  job.path = json.at("path").get<std::string>();
+  job.metric = parse_job_metric(json.at("metric").get<std::string>());
+  if (const Json& truth = json.at("ground_truth"); !truth.is_null()) job.ground_truth = truth.get<std::string>();
+  json.at("arguments").get_to(job.arguments);
+  return job;
+}
+
+}  // namespace
+
+std::string to_string(JobMetric metric) { return metric == JobMetric::kTumMono ? "tum_mono" : "ate"; }
+
+JobMetric parse_job_metric(const std::string& name) {
+  for (const JobMetric metric : {JobMetric::kAte, JobMetric::kTumMono}) {
+    if (name == to_string(metric)) return metric;
+  }
+  throw Error("metric " + name, "there is no such metric", "allowed are ate and tum_mono");
+}
+
+void write_job(const fs::path& folder, const ExperimentJob& job) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error(folder.string(), "cannot be created (" + error.message() + ")", "check the permissions");
+  write_file(folder / kFileName, json_of(job).dump(2) + "\n");
+}
+
+ExperimentJob read_job(const fs::path& folder) {
+  const fs::path path = folder / kFileName;
+  const std::string text = read_file(path);
+  try {
+    return job_of(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw Error(path.string(), std::string("is not the description of a job (") + error.what() + ")",
+                "remove the folder of the job; the experiment makes it again");
+  }
+}
+
+}  // namespace ldso

@@ -1,0 +1,70 @@
+#include "experiment/results/experiment_listing.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "io/text/text_file.h"
+#include "ldso/error.h"
+
+namespace ldso {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFileName = "experiment.json";
+
+}  // namespace
+
+void write_listing(const fs::path& experiment, const ExperimentListing& listing) {
+  std::error_code error;
+  fs::create_directories(experiment, error);
+  if (error) {
+    throw Error(experiment.string(), "cannot be made (" + error.message() + ")",
+                "give a folder that can be written by -o");
+  }
+  const Json json{{"title", listing.title}, {"jobs", listing.jobs}};
+  write_file(experiment / kFileName, json.dump(2) + "\n");
+}
+
+ExperimentListing read_listing(const fs::path& experiment) {
+  const fs::path path = experiment / kFileName;
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    throw Error(experiment.string(), std::string("is no folder of an experiment: there is no ") + kFileName,
+                "give the folder that `ldso experiment run` had by -o");
+  }
+  try {
+    const Json json = Json::parse(read_file(path));
+    return {json.at("title").get<std::string>(), json.at("jobs").get<std::vector<std::string>>()};
+  } catch (const Json::exception& problem) {
+    throw Error(path.string(), std::string("is damaged (") + problem.what() + ")",
+                "`ldso experiment run` writes it again");
+  }
+}
+
+std::string shell_quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted(1, '\'');
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted.append("'\\''");  // Out of the quotes, a quote, in again.
+    } else {
+      quoted.push_back(c);
+    }
+  }
+  quoted += '\'';
+  return quoted;
+}
+
+std::string shell_quoted(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) {
+    if (!line.empty()) line += ' ';
+    line += shell_quoted(word);
+  }
+  return line;
+}
+
+}  // namespace ldso
