@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic{"ldsovoc\0", 8};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kChecksumSize = 8;
 
@@ -44,7 +43,7 @@ void set_parents(std::span<const std::uint8_t> child_counts, VocabularyReader& r
 
 Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& name) {
   VocabularyReader reader(bytes, name);
-  reader.get_bytes(kMagic.size());
+  reader.get_bytes(kVocabularyMagic.size());
   const auto version = reader.get<std::uint32_t>();
   if (version != kVersion)
     throw Error(name, "is a vocabulary of format version " + std::to_string(version), "update ldso to read it");
@@ -77,7 +76,7 @@ Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& nam
 Vocabulary parse_vocabulary(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (bytes.empty()) throw Error(name, "the file is empty", "copy it again or train a vocabulary (ldso vocab train)");
   try {
-    if (starts_with(bytes, kMagic)) return parse_own(bytes, name);
+    if (starts_with(bytes, kVocabularyMagic)) return parse_own(bytes, name);
     if (is_dbow3_binary(bytes)) return parse_dbow3_binary(bytes, name);
     if (is_dbow2_text(bytes)) return parse_dbow2_text(bytes, name);
   } catch (const Error& error) {
@@ -102,7 +101,7 @@ std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
   if (vocabulary.branching() > 255)
     throw Error("vocabulary", "a node has more than 255 children", "train it with a smaller branching");
   ByteWriter out;
-  out.put_text(kMagic);
+  out.put_text(kVocabularyMagic);
   out.put(kVersion);
   out.put(static_cast<std::uint32_t>(vocabulary.node_count()));
   out.put(static_cast<std::uint32_t>(vocabulary.word_count()));

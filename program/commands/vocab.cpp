@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "commands/training_images.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "odometry/selection/point_selector.h"
 #include "place/default_vocabulary.h"
@@ -111,6 +112,7 @@ void check_output(const fs::path& output) {
   if (!fs::is_directory(folder, error))
     throw Error(output.string(), "the folder of the output does not exist", "create it first");
   if (fs::is_directory(output, error)) throw Error(output.string(), "is a folder", "name a file for the vocabulary");
+  refuse_other_file(output, {kVocabularyMagic}, "a vocabulary of ldso");
 }
 
 Vocabulary train(const TrainArguments& a) {

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "evaluation/svg_chart.h"
+#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "util/median.h"
 
@@ -307,13 +307,6 @@ std::string loop_subtitle(const EvaluationResult& before, const EvaluationResult
   return text;
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path.string(), "cannot write the picture", "check that the folder exists and is writable");
-}
-
 }  // namespace
 
 std::string trajectory_picture(const Trajectory& estimate, const Trajectory& truth, const EvaluationResult& result,
@@ -366,12 +359,12 @@ std::string loop_picture(const Trajectory& before, const Trajectory& after, cons
 
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,
                               const EvaluationResult& result, const PictureOptions& options) {
-  write_text(path, trajectory_picture(estimate, truth, result, options));
+  write_file(path, trajectory_picture(estimate, truth, result, options));
 }
 
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate,
                               const PictureOptions& options) {
-  write_text(path, trajectory_picture(estimate, options));
+  write_file(path, trajectory_picture(estimate, options));
 }
 
 }  // namespace ldso

@@ -16,8 +16,8 @@
 #include "experiment/jobs/run_file.h"
 #include "experiment/results/experiment_listing.h"
 #include "io/text/nearest_name.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
-#include "output/run_files.h"
 #include "terminal/interrupt.h"
 
 namespace ldso {
@@ -58,7 +58,7 @@ void check_sequences(ExperimentPlan& plan, const ExperimentRunOptions& options) 
 bool is_to_be_printed(const fs::path& folder, bool retry_failed, int& busy) {
   const RunState state = read_run(folder).state;
   if (state == RunState::kFinished || (state == RunState::kFailed && !retry_failed)) return false;
-  make_output_folder(folder);
+  create_folder(folder);
   const std::optional<JobLock> lock = JobLock::try_acquire(folder);
   if (!lock) {
     ++busy;
