@@ -44,7 +44,10 @@ LiveRun::LiveRun(LiveRunOptions options)
       });
 }
 
-LiveRun::~LiveRun() = default;
+LiveRun::~LiveRun() {
+  server_.reset();  // Shows how it ended.
+  feed_->close();
+}
 
 void LiveRun::after_frame(int done, int count, const std::atomic<bool>& stop, int dropped) {
   dropped_.store(dropped);
