@@ -70,7 +70,7 @@ ROOMS = {
 
 # Libraries that stay inside rooms.
 LIBRARIES = {
-    r"opencv2/": {"io", "camera", "place"},
+    r"opencv2/": {"io", "camera", "place", "commands"},
     r"zip\.h": {"io", "simulation"},
     r"yaml-cpp/": {"io", "experiment", "simulation"},
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
@@ -215,6 +215,11 @@ LIBRARY_HABITS = [
 ]
 
 
+PROCESS_HABITS = [
+    (r"\b(setLogLevel|setNumThreads|setlocale|set_terminate)\b", "what changes the whole process is for main.cpp alone"),
+]
+
+
 def check_habits(path, rules):
     for number, line in code_lines(path):
         for pattern, text in rules:
@@ -294,6 +299,8 @@ def main():
             check_kernel(path)
     for path in public + sources:
         check_habits(path, HABITS)
+        if path != ROOT / "program/commands/main.cpp":
+            check_habits(path, PROCESS_HABITS)
         if path.suffix == ".h":
             # Highway's *-inl.h are included once for each instruction set.
             if not path.stem.endswith("-inl"):

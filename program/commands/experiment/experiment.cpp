@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "commands/experiment/experiment_compare.h"
+#include "commands/experiment/experiment_demo.h"
 #include "commands/experiment/experiment_run.h"
 #include "commands/experiment/experiment_status.h"
 #include "commands/experiment/experiment_summarize.h"
-#ifdef LDSO_HAS_SIMULATE
-#include "commands/experiment/experiment_demo.h"
-#endif
 
 namespace ldso {
 
@@ -21,9 +19,7 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   add_experiment_status_command(*command);
   add_summarize_command(*command, exit_code);
   add_compare_command(*command, exit_code);
-#ifdef LDSO_HAS_SIMULATE
   add_experiment_demo_command(*command, exit_code);
-#endif
 }
 
 std::vector<std::string> without_experiment_shorthands(std::vector<std::string> arguments, const CLI::App& app) {
