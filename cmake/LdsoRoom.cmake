@@ -2,16 +2,21 @@
 # test program `<room>_test`. Which file is what is said by its name: *_test.cpp and test_*.cpp are tests, all other
 # .cpp files of the folder are its sources.
 
-# ldso_add_room(<name> [DIR folder] [EXCLUDE patterns...] [DEPENDS rooms...] [LINK targets...] [PRIVATE_LINK targets...]
-#   [TEST_SOURCES files...] [TEST_LINK targets...])
+# ldso_add_room(<name> [COLD] [DIR folder] [PRECOMPILE header] [EXCLUDE patterns...] [DEPENDS rooms...] [LINK targets...]
+#   [PRIVATE_LINK targets...] [TEST_SOURCES files...] [TEST_LINK targets...])
+#     COLD          nothing in it takes time: it is compiled fast rather than well
 #     DIR           folder of the room below the current one (default: its name)
+#     PRECOMPILE    header of cmake/ that is parsed once for it (default: precompiled.h)
 #     EXCLUDE       regular expressions of files that are not built here
 #     TEST_SOURCES  helpers of other rooms' tests that this room's tests use
 # LDSO_PART, LDSO_INCLUDE_ROOT: the part, and the folder that its includes are relative to.
 function(ldso_add_room name)
-  cmake_parse_arguments(ROOM "" "DIR" "EXCLUDE;DEPENDS;LINK;PRIVATE_LINK;TEST_SOURCES;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(ROOM "COLD" "DIR;PRECOMPILE" "EXCLUDE;DEPENDS;LINK;PRIVATE_LINK;TEST_SOURCES;TEST_LINK" ${ARGN})
   if(NOT DEFINED ROOM_DIR)
     set(ROOM_DIR ${name})
+  endif()
+  if(NOT DEFINED ROOM_PRECOMPILE)
+    set(ROOM_PRECOMPILE precompiled.h)
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${ROOM_DIR}/*.cpp)
   foreach(pattern IN LISTS ROOM_EXCLUDE)
@@ -33,9 +38,18 @@ function(ldso_add_room name)
     PRIVATE $<BUILD_INTERFACE:ldso_warnings> ${ROOM_PRIVATE_LINK})
   set_target_properties(ldso_${name} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY LDSO_ROOMS_OF_${LDSO_PART} ldso_${name})
+  if(ROOM_COLD)
+    target_compile_options(ldso_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(ROOM_DEPENDS OR "Eigen3::Eigen" IN_LIST ROOM_LINK)
+    ldso_precompile(ldso_${name} ${ROOM_PRECOMPILE} ${sources})
+  endif()
   if(LDSO_BUILD_TESTS AND tests)
     add_executable(${name}_test ${tests} ${ROOM_TEST_SOURCES})
-    target_link_libraries(${name}_test PRIVATE ldso_${name} ${ROOM_TEST_LINK} ldso_warnings GTest::gtest_main)
+    target_link_libraries(${name}_test PRIVATE ldso_${name} ${ROOM_TEST_LINK} ldso_warnings GTest::gtest_main Eigen3::Eigen)
+    # Tests are compiled once and run once: they need not be fast.
+    target_compile_options(${name}_test PRIVATE $<$<CONFIG:Release>:-O1>)
+    ldso_precompile(${name}_test precompiled_test.h)
     gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}/")
   endif()
 endfunction()

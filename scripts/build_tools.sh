@@ -17,6 +17,9 @@ install_node() {
   scripts/install_packages.sh viewer || echo "no Node: ldso is built without its viewer"
 }
 
+# Without this ccache does not keep what was compiled with precompiled headers.
+export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
+
 # configure PRESET [CMAKE OPTIONS...]
 configure() {
   if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER:-} ]] && command -v ccache >/dev/null; then

@@ -66,15 +66,16 @@ ROOMS = {
     "output": ["report", "experiment/jobs"],
     "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
     "commands": ["commands/experiment"],
+    "": ["commands"],  # program/main.cpp
 }
 
 # Libraries that stay inside rooms.
 LIBRARIES = {
-    r"opencv2/": {"io", "camera", "place", "commands"},
+    r"opencv2/": {"io", "camera", "place", ""},
     r"zip\.h": {"io", "simulation"},
     r"yaml-cpp/": {"io", "experiment", "simulation"},
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
-    r"CLI/": {"commands", "results", "terminal"},
+    r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},
     r"ceres/": {"mapping"},
     r"hwy/": {"image", "odometry", "simulation"},
@@ -119,6 +120,8 @@ def include_name(path):
 def room_of(name):
     """The room of a file by the name it is included by, e.g. odometry/window of odometry/window/gauge.h."""
     parts = name.split("/")
+    if len(parts) == 1:
+        return ""
     return max((r for r in ROOMS if parts[:-1][: r.count("/") + 1] == r.split("/")), key=len, default=None)
 
 
@@ -299,7 +302,7 @@ def main():
             check_kernel(path)
     for path in public + sources:
         check_habits(path, HABITS)
-        if path != ROOT / "program/commands/main.cpp":
+        if path != ROOT / "program/main.cpp":
             check_habits(path, PROCESS_HABITS)
         if path.suffix == ".h":
             # Highway's *-inl.h are included once for each instruction set.

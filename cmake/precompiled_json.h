@@ -1,0 +1,4 @@
+// The same for sources that read and write JSON.
+#include <nlohmann/json.hpp>
+
+#include "precompiled.h"
