@@ -10,13 +10,8 @@
 #include <sys/prctl.h>
 #endif
 
-#include "commands/eval.h"
-#include "commands/experiment/experiment.h"
-#include "commands/export.h"
-#include "commands/run.h"
-#include "commands/simulate.h"
-#include "commands/view.h"
-#include "commands/vocab.h"
+#include "commands/commands.h"
+#include "commands/experiment/experiment_commands.h"
 #include "results/versions.h"
 #include "terminal/command_line.h"
 

@@ -1,14 +1,12 @@
 #include "place/vocabulary_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string_view>
-#include <system_error>
 
 #include "ldso/error.h"
 #include "place/dbow_vocabulary_file.h"
 #include "place/vocabulary_reader.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -89,12 +87,8 @@ Vocabulary parse_vocabulary(std::span<const std::uint8_t> bytes, const std::stri
 }
 
 Vocabulary read_vocabulary(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw Error(path.string(), "there is no such file", "check the path");
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw Error(path.string(), "cannot be read", "check its permissions");
-  return parse_vocabulary(bytes, path.string());
+  const std::string content = read_file(path);
+  return parse_vocabulary({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()}, path.string());
 }
 
 std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
@@ -121,16 +115,7 @@ std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
 
 void write_vocabulary(const fs::path& path, const Vocabulary& vocabulary) {
   const std::vector<std::uint8_t> bytes = vocabulary_bytes(vocabulary);
-  const fs::path unfinished = path.string() + ".unfinished";
-  std::ofstream file(unfinished, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(unfinished, path, error);
-  if (file && !error) return;
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  throw Error(path.string(), "cannot be written", "check that the folder exists, is writable and has space left");
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace ldso

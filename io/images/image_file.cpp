@@ -10,6 +10,7 @@
 #include "io/images/image_truncation.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -10,6 +10,8 @@
 
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -71,11 +73,7 @@ void check_finite(const std::filesystem::path& path, const StampedPose& pose) {
   }
 }
 
-void append(std::string& text, const char* format, double value) {
-  char buffer[512];
-  const int length = std::snprintf(buffer, sizeof buffer, format, value);
-  text.append(buffer, static_cast<std::size_t>(length));
-}
+void append(std::string& text, const char* format, double value) { text += format_text(format, value); }
 
 /// `header`, then a line for each pose, to which `append_pose(text, pose)` adds its columns.
 template <class AppendPose>

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

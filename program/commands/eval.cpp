@@ -1,4 +1,4 @@
-#include "commands/eval.h"
+#include "commands/commands.h"
 
 #include <filesystem>
 #include <iostream>
@@ -11,8 +11,8 @@
 #include "evaluation/trajectory_picture.h"
 #include "evaluation/trajectory_source.h"
 #include "io/text/output_folder.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

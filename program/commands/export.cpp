@@ -1,4 +1,4 @@
-#include "commands/export.h"
+#include "commands/commands.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,3 @@
-#include "commands/run.h"
-
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "camera/camera_stream.h"
+#include "commands/commands.h"
 #include "commands/live_truth.h"
 #include "ldso/error.h"
 #include "ldso/io/settings_file.h"

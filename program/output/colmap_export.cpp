@@ -10,6 +10,7 @@
 #include "io/images/image_file.h"
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -41,11 +42,7 @@ bool is_inside(const Eigen::Vector2d& pixel, const CameraCalibration& camera) {
   return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 && pixel.y() < camera.height - 0.5;
 }
 
-std::string image_name(std::int64_t frame_id) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%06lld.png", static_cast<long long>(frame_id));
-  return text;
-}
+std::string image_name(std::int64_t frame_id) { return format_text("%06lld.png", static_cast<long long>(frame_id)); }
 
 /// The image of a frame as a file of its own, under its own name if it is one already.
 std::string write_original(const Dataset& dataset, std::int64_t frame_id, const fs::path& folder) {

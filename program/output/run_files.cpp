@@ -8,7 +8,6 @@
 
 #include "evaluation/trajectory_picture.h"
 #include "experiment/jobs/job_file.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/ply_file.h"
@@ -16,6 +15,7 @@
 #include "report/report_page.h"
 #include "results/loop_pictures.h"
 #include "results/loops_json.h"
+#include "util/whole_file.h"
 #include "viewer/recording/recording_file.h"
 
 namespace ldso {

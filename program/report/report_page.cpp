@@ -4,7 +4,6 @@
 
 #include "evaluation/report.h"
 #include "evaluation/trajectory_picture.h"
-#include "io/text/text_file.h"
 #include "report/frame_charts.h"
 #include "report/html.h"
 #include "report/loop_section.h"
@@ -12,6 +11,7 @@
 #include "report/run_sections.h"
 #include "util/base64.h"
 #include "util/format_text.h"
+#include "util/whole_file.h"
 #include "viewer/recording/recording_limits.h"
 #include "viewer/server/report_script.h"
 

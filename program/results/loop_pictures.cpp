@@ -11,6 +11,7 @@
 #include "image/frame_preprocessor.h"
 #include "io/images/match_picture.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "viewer/map/shrink.h"
 
 namespace ldso {
@@ -60,15 +61,12 @@ std::string missing_picture(const LoopRecord& loop, const std::exception& error)
 }  // namespace
 
 std::string loop_caption(const LoopRecord& loop) {
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "candidate %lld (left), keyframe %lld (right): %d inliers, %d with depth; scale %.4f +- %.4f, "
-                "rotation %.2f deg",
-                static_cast<long long>(loop.candidate_id), static_cast<long long>(loop.keyframe_id), loop.inliers,
-                loop.depth_inliers, loop.S_keyframe_candidate.scale(),
-                loop.S_keyframe_candidate.scale() * loop.log_scale_stddev,
-                loop.S_keyframe_candidate.rotation().log().norm() * 180 / std::numbers::pi);
-  return text;
+  return format_text(
+      "candidate %lld (left), keyframe %lld (right): %d inliers, %d with depth; scale %.4f +- %.4f, "
+      "rotation %.2f deg",
+      static_cast<long long>(loop.candidate_id), static_cast<long long>(loop.keyframe_id), loop.inliers,
+      loop.depth_inliers, loop.S_keyframe_candidate.scale(), loop.S_keyframe_candidate.scale() * loop.log_scale_stddev,
+      loop.S_keyframe_candidate.rotation().log().norm() * 180 / std::numbers::pi);
 }
 
 void remove_loop_pictures(const fs::path& folder) {

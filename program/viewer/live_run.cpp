@@ -1,11 +1,13 @@
 #include "viewer/live_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
 #include <utility>
 
 #include "io/images/image_file.h"
 #include "viewer/map/shrink.h"
-#include "viewer/process_memory.h"
 #include "viewer/server/random_id.h"
 
 namespace ldso {
@@ -20,6 +22,14 @@ constexpr int kMostImageWidth = 720;
 constexpr int kJpegQuality = 80;
 /// Frames after which a run without a server tidies its feed up.
 constexpr int kFetchInterval = 50;
+
+/// What the program holds at the moment: resident [MB]; 0 where it cannot be told.
+double process_memory_mb() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0, resident = 0;
+  file >> total >> resident;
+  return file ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6 : 0;
+}
 
 protocol::Hello make_hello(const LiveRunOptions& options) {
   protocol::Hello hello;

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/text/output_folder.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

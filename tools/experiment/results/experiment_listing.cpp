@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "io/text/output_folder.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include "experiment/results/signed_rank.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -99,11 +99,7 @@ void compare_overall(const std::map<Group, std::vector<ErrorPair>>& groups, Expe
   comparison.p = signed_rank_test(ratios).p;
 }
 
-std::string percent(double ratio) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%+.1f %%", 100 * (ratio - 1));
-  return text;
-}
+std::string percent(double ratio) { return format_text("%+.1f %%", 100 * (ratio - 1)); }
 
 std::string verdict(const SequenceComparison& sequence) {
   const bool a_failed = std::isinf(sequence.median_a), b_failed = std::isinf(sequence.median_b);
@@ -116,11 +112,7 @@ std::string verdict(const SequenceComparison& sequence) {
   return std::string(is_worse ? "worse" : "better") + (sequence.p < 0.05 ? " (p < 0.05)" : "");
 }
 
-std::string p_text(double p) {
-  char text[64];
-  std::snprintf(text, sizeof(text), p < 0.0001 ? "%.1e" : "%.4f", p);
-  return text;
-}
+std::string p_text(double p) { return format_text(p < 0.0001 ? "%.1e" : "%.4f", p); }
 
 std::string count_text(std::size_t a, std::size_t b) { return std::to_string(a) + " -> " + std::to_string(b); }
 

@@ -10,9 +10,9 @@
 #include "experiment/summary/result_tables.h"
 #include "experiment/summary/summary_page.h"
 #include "io/text/output_folder.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "util/thread_pool.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -7,6 +7,7 @@
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {

@@ -5,6 +5,7 @@
 #include "ldso/error.h"
 #include "ldso/io/trajectory_file.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {

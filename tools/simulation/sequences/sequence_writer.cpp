@@ -11,10 +11,10 @@
 
 #include "io/images/image_file.h"
 #include "io/text/output_folder.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {

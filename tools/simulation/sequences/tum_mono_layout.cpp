@@ -7,6 +7,7 @@
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/trajectory_file.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {
