@@ -6,6 +6,8 @@ import pathlib
 import re
 import sys
 
+import source_measures
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # The parts of the project, and the folder that the includes of their files are relative to.
@@ -235,6 +237,18 @@ def check_pragma_once(path):
         problem(path, 1, "a header begins with #pragma once")
 
 
+def check_folders(sources):
+    """Every folder is a room of its own, so that no two can include each other unseen."""
+    for folder in sorted({include_name(p).rpartition("/")[0] for p in sources}):
+        if folder not in ROOMS:
+            problem(ROOT / "scripts/check_source.py", 1, f"{folder} is no room in ROOMS")
+
+
+def check_measures(files):
+    for path, line, text in source_measures.problems([p for p in files if not is_test(p)], ROOT):
+        problem(path, line, text)
+
+
 def check_build_files():
     files = [*ROOT.glob("CMake*"), *ROOT.glob("cmake/*"), *(ROOT / f"{part}/CMakeLists.txt" for part in PARTS),
              *ROOT.glob("bench/CMakeLists.txt"), *ROOT.glob("tests/**/CMakeLists.txt")]
@@ -313,6 +327,8 @@ def main():
     check_room_circles()
     check_include_circles(headers)
     check_one_definition(headers)
+    check_folders(sources)
+    check_measures(public + sources)
     check_build_files()
     print("\n".join(problems) if problems else f"{len(public) + len(sources)} files are as they should be")
     return 1 if problems else 0

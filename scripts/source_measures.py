@@ -9,8 +9,21 @@ MOST_FUNCTION_LINES = 60
 MOST_FUNCTION_LINES_P99 = 45
 # Lines of a file, tests left out.
 MOST_FILE_LINES_P90 = 250
-# An engine's .cpp of more lines has a _test.cpp beside it, or is one of several that a test named here covers.
+# An engine's .cpp of more lines has a _test.cpp beside it.
 LONGEST_WITHOUT_TEST = 100
+# What is over a limit still, by file (functions) or by the test that is missing. An entry that is not needed any more is
+# a problem as well.
+STILL_OPEN = {
+    "engine/odometry/depth/point_activator.cpp",
+    "engine/odometry/residual/residual_kernels.cpp",
+    "engine/settings/settings.cpp",
+    "engine/mapping/graph/pose_graph_solver_test.cpp",
+    "engine/odometry/init/joint_alignment_test.cpp",
+    "engine/odometry/init/rotation_alignment_test.cpp",
+    "engine/odometry/odometry_test.cpp",
+    "engine/odometry/selection/gradient_selector_test.cpp",
+    "engine/slam/pipeline_test.cpp",
+}
 
 BLANKED = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
@@ -94,11 +107,20 @@ def measure(paths):
     return all_functions, files
 
 
-def problems(paths, engine):
+def problems(paths, root):
     """(path, line, text) of what is over the limits. `paths`: all sources but tests."""
     all_functions, files = measure(paths)
-    found = [(path, line, f"{name}() has {lines} lines: at most {MOST_FUNCTION_LINES}")
-             for lines, path, line, name in all_functions if lines > MOST_FUNCTION_LINES]
+    found, open_now = [], set()
+
+    def over(file, path, line, text):
+        name = file.relative_to(root).as_posix()
+        open_now.add(name)
+        if name not in STILL_OPEN:
+            found.append((path, line, text))
+
+    for lines, path, line, name in all_functions:
+        if lines > MOST_FUNCTION_LINES:
+            over(path, path, line, f"{name}() has {lines} lines: at most {MOST_FUNCTION_LINES}")
     p99 = quantile([f[0] for f in all_functions], 0.99)
     if p99 > MOST_FUNCTION_LINES_P99:
         _, path, line, _ = max(all_functions, key=lambda f: f[0])
@@ -108,9 +130,11 @@ def problems(paths, engine):
         found.append((max(files)[1], 1, f"one file in ten has {p90} lines or more: {MOST_FILE_LINES_P90} at most"))
     for lines, path in files:
         test = path.with_name(path.stem + "_test.cpp")
-        is_long = path.suffix == ".cpp" and lines > LONGEST_WITHOUT_TEST and engine in path.parents
+        is_long = path.suffix == ".cpp" and lines > LONGEST_WITHOUT_TEST and root / "engine" in path.parents
         if is_long and not path.stem.endswith("_reference") and not test.is_file():
-            found.append((path, 1, f"has {lines} lines and no {test.name} beside it"))
+            over(test, path, 1, f"has {lines} lines and no {test.name} beside it")
+    for name in sorted(STILL_OPEN - open_now):
+        found.append((pathlib.Path(__file__).resolve(), 1, f"{name} is within the limits: it is not open any more"))
     return found
 
 
@@ -125,7 +149,7 @@ def main():
               f"p99 {quantile(lines, 0.99)}, most {max(lines)}")
         for row in sorted(rows, key=lambda r: -r[0])[:12]:
             print("  ", row[0], row[1].relative_to(root), *row[2:])
-    for path, line, text in problems(paths, root / "engine"):
+    for path, line, text in problems(paths, root):
         print(f"{path.relative_to(root)}:{line}: {text}")
 
 
