@@ -22,8 +22,12 @@ namespace fs = std::filesystem;
 
 /// Those that read files; cv::CAP_ANY would look for cameras on the bus as well.
 constexpr std::array<int, 3> kFileBackends{cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG, cv::CAP_GSTREAMER};
+
+/// Of a file that does not say.
 constexpr double kDefaultFps = 30.0;
-constexpr int kBlock = 32;  ///< Frames that are decoded and kept at once when reading backwards.
+
+/// Frames that are decoded and kept at once when reading backwards.
+constexpr int kBlock = 32;
 
 /// Decodes the frames of a file in any order.
 class VideoReader {

@@ -16,6 +16,9 @@
 namespace ldso {
 namespace {
 
+/// Norm of R R^T - 1 that rounding to a few digits may leave of a rotation.
+constexpr double kMostRotationError = 0.01;
+
 constexpr double kNanosecondsPerSecond = 1e9;
 
 SO3d checked_rotation(const TextFile& file, const TextLine& line, const Eigen::Quaterniond& q) {
@@ -50,7 +53,7 @@ SE3d parse_kitti_pose(const TextFile& file, const TextLine& line) {
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
   for (int i = 0; i < 12; ++i) T(i / 4, i % 4) = file.finite_number(line, static_cast<std::size_t>(i));
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
-  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 0.01 || R.determinant() < 0) {
+  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > kMostRotationError || R.determinant() < 0) {
     file.fail(line, "columns 1-3, 5-7, 9-11 are not a rotation", "expected the rows of [R t], 12 numbers");
   }
   return SE3d(SO3d::from_matrix(R), T.topRightCorner<3, 1>());

@@ -16,6 +16,8 @@
 namespace ldso {
 namespace {
 
+constexpr double kSignificance = 0.05;
+
 constexpr double kSameRatio = 1.01;  ///< Smaller differences are called the same.
 
 /// Errors of a run in both experiments; failed ones are infinite.
@@ -109,7 +111,7 @@ std::string verdict(const SequenceComparison& sequence) {
   const bool is_worse = b_failed || (!a_failed && ratio > kSameRatio);
   const bool is_better = a_failed || ratio < 1 / kSameRatio;
   if (!is_worse && !is_better) return "same";
-  return std::string(is_worse ? "worse" : "better") + (sequence.p < 0.05 ? " (p < 0.05)" : "");
+  return std::string(is_worse ? "worse" : "better") + (sequence.p < kSignificance ? " (p < 0.05)" : "");
 }
 
 std::string p_text(double p) { return format_text(p < 0.0001 ? "%.1e" : "%.4f", p); }
