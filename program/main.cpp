@@ -1,28 +1,36 @@
 // The `ldso` program: one subcommand a file.
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <string>
 #include <vector>
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
 
-#include "commands/eval.h"
-#include "commands/experiment/experiment.h"
-#include "commands/export.h"
-#include "commands/run.h"
-#include "commands/view.h"
-#include "commands/vocab.h"
+#include "commands/commands.h"
+#include "commands/experiment/experiment_commands.h"
 #include "results/versions.h"
 #include "terminal/command_line.h"
-#ifdef LDSO_HAS_SIMULATE
-#include "commands/simulate.h"
-#endif
+
+namespace {
+
+/// What is OpenCV's for the whole process is set here, and nowhere in the libraries.
+void set_up_opencv() {
+  cv::setNumThreads(1);  // ldso has threads of its own; OpenCV's would only compete with them.
+  // It tries one video library after the other and prints what each of them says; ldso says itself what went wrong.
+  if (std::getenv("OPENCV_LOG_LEVEL") == nullptr) cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
 #ifdef __linux__
   prctl(PR_SET_NAME, "ldso");  // Jobs of experiments are started as /proc/self/exe and would be called "exe".
 #endif
+  set_up_opencv();
   CLI::App app("Monocular direct visual SLAM: images to a camera trajectory and a sparse map", "ldso");
   app.set_version_flag("--version", "ldso " + ldso::project_version() + " (" + ldso::compiler_version() + ")");
   app.require_subcommand(1);
@@ -32,9 +40,7 @@ int main(int argc, char** argv) {
   ldso::add_export_command(app);
   ldso::add_eval_command(app);
   ldso::add_vocab_command(app);
-#ifdef LDSO_HAS_SIMULATE
   ldso::add_simulate_command(app);
-#endif
   ldso::add_experiment_command(app, exit_code);
   const auto arguments = ldso::without_experiment_shorthands({argv, argv + argc}, app);
   std::vector<const char*> words;

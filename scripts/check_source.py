@@ -6,6 +6,8 @@ import pathlib
 import re
 import sys
 
+import source_measures
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # The parts of the project, and the folder that the includes of their files are relative to.
@@ -71,7 +73,7 @@ ROOMS = {
 
 # Libraries that stay inside rooms.
 LIBRARIES = {
-    r"opencv2/": {"io", "camera", "place"},
+    r"opencv2/": {"io", "camera", "place", ""},
     r"zip\.h": {"io", "simulation"},
     r"yaml-cpp/": {"io", "experiment", "simulation"},
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
@@ -218,6 +220,11 @@ LIBRARY_HABITS = [
 ]
 
 
+PROCESS_HABITS = [
+    (r"\b(setLogLevel|setNumThreads|setlocale|set_terminate)\b", "what changes the whole process is for main.cpp alone"),
+]
+
+
 def check_habits(path, rules):
     for number, line in code_lines(path):
         for pattern, text in rules:
@@ -228,6 +235,18 @@ def check_habits(path, rules):
 def check_pragma_once(path):
     if "#pragma once" not in path.read_text(encoding="utf-8"):
         problem(path, 1, "a header begins with #pragma once")
+
+
+def check_folders(sources):
+    """Every folder is a room of its own, so that no two can include each other unseen."""
+    for folder in sorted({include_name(p).rpartition("/")[0] for p in sources}):
+        if folder not in ROOMS:
+            problem(ROOT / "scripts/check_source.py", 1, f"{folder} is no room in ROOMS")
+
+
+def check_measures(files):
+    for path, line, text in source_measures.problems([p for p in files if not is_test(p)], ROOT):
+        problem(path, line, text)
 
 
 def check_build_files():
@@ -297,6 +316,8 @@ def main():
             check_kernel(path)
     for path in public + sources:
         check_habits(path, HABITS)
+        if path != ROOT / "program/main.cpp":
+            check_habits(path, PROCESS_HABITS)
         if path.suffix == ".h":
             # Highway's *-inl.h are included once for each instruction set.
             if not path.stem.endswith("-inl"):
@@ -306,6 +327,8 @@ def main():
     check_room_circles()
     check_include_circles(headers)
     check_one_definition(headers)
+    check_folders(sources)
+    check_measures(public + sources)
     check_build_files()
     print("\n".join(problems) if problems else f"{len(public) + len(sources)} files are as they should be")
     return 1 if problems else 0

@@ -44,7 +44,7 @@ refused_file() {  # pattern
   expect_exit 1 vocab info "$WORK/bad"
   expect_output "^error: .*/bad.*$1"
 }
-refused_file 'no such file'
+refused_file 'cannot be opened'
 : >"$WORK/bad"
 refused_file 'the file is empty'
 head -c 5000 "$WORK/a.ldsovoc" >"$WORK/bad"

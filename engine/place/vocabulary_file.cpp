@@ -1,21 +1,18 @@
 #include "place/vocabulary_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string_view>
-#include <system_error>
 
 #include "ldso/error.h"
 #include "place/dbow_vocabulary_file.h"
 #include "place/vocabulary_reader.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic{"ldsovoc\0", 8};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kChecksumSize = 8;
 
@@ -44,7 +41,7 @@ void set_parents(std::span<const std::uint8_t> child_counts, VocabularyReader& r
 
 Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& name) {
   VocabularyReader reader(bytes, name);
-  reader.get_bytes(kMagic.size());
+  reader.get_bytes(kVocabularyMagic.size());
   const auto version = reader.get<std::uint32_t>();
   if (version != kVersion)
     throw Error(name, "is a vocabulary of format version " + std::to_string(version), "update ldso to read it");
@@ -77,7 +74,7 @@ Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& nam
 Vocabulary parse_vocabulary(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (bytes.empty()) throw Error(name, "the file is empty", "copy it again or train a vocabulary (ldso vocab train)");
   try {
-    if (starts_with(bytes, kMagic)) return parse_own(bytes, name);
+    if (starts_with(bytes, kVocabularyMagic)) return parse_own(bytes, name);
     if (is_dbow3_binary(bytes)) return parse_dbow3_binary(bytes, name);
     if (is_dbow2_text(bytes)) return parse_dbow2_text(bytes, name);
   } catch (const Error& error) {
@@ -90,19 +87,15 @@ Vocabulary parse_vocabulary(std::span<const std::uint8_t> bytes, const std::stri
 }
 
 Vocabulary read_vocabulary(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw Error(path.string(), "there is no such file", "check the path");
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw Error(path.string(), "cannot be read", "check its permissions");
-  return parse_vocabulary(bytes, path.string());
+  const std::string content = read_file(path);
+  return parse_vocabulary({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()}, path.string());
 }
 
 std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
   if (vocabulary.branching() > 255)
     throw Error("vocabulary", "a node has more than 255 children", "train it with a smaller branching");
   ByteWriter out;
-  out.put_text(kMagic);
+  out.put_text(kVocabularyMagic);
   out.put(kVersion);
   out.put(static_cast<std::uint32_t>(vocabulary.node_count()));
   out.put(static_cast<std::uint32_t>(vocabulary.word_count()));
@@ -122,16 +115,7 @@ std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
 
 void write_vocabulary(const fs::path& path, const Vocabulary& vocabulary) {
   const std::vector<std::uint8_t> bytes = vocabulary_bytes(vocabulary);
-  const fs::path unfinished = path.string() + ".unfinished";
-  std::ofstream file(unfinished, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(unfinished, path, error);
-  if (file && !error) return;
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  throw Error(path.string(), "cannot be written", "check that the folder exists, is writable and has space left");
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace ldso

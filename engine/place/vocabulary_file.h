@@ -11,11 +11,15 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "place/vocabulary.h"
 
 namespace ldso {
+
+/// What own files begin with.
+inline constexpr std::string_view kVocabularyMagic{"ldsovoc\0", 8};
 
 /// Own files and those of DBoW (dbow_vocabulary_file.h), recognized by their content. Throws Error naming the file if
 /// it cannot be read, is of no known format, of a newer version, or damaged.

@@ -1,5 +1,6 @@
 #include "util/format_text.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdarg>
 #include <cstdio>
@@ -7,11 +8,18 @@
 namespace ldso {
 
 std::string format_text(const char* pattern, ...) {
-  char text[512];
-  va_list arguments;
+  va_list arguments, again;
   va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof(text), pattern, arguments);
+  va_copy(again, arguments);
+  char start[256];  // Long enough for most.
+  const int length = std::vsnprintf(start, sizeof(start), pattern, arguments);
   va_end(arguments);
+  std::string text(start, length > 0 ? std::min(static_cast<std::size_t>(length), sizeof(start) - 1) : 0);
+  if (length >= static_cast<int>(sizeof(start))) {
+    text.resize(static_cast<std::size_t>(length));
+    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  }
+  va_end(again);
   return text;
 }
 

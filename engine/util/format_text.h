@@ -5,7 +5,8 @@
 
 namespace ldso {
 
-/// At most 511 characters.
+/// The one home of formatted text. Compilers check the pattern against the arguments; std::format, which could do more,
+/// comes with GCC 13 only, and a library for it would be one that the engine has to be linked with.
 [[gnu::format(printf, 1, 2)]] std::string format_text(const char* pattern, ...);
 
 /// Texts that are the same without their figures say the same of different things.

@@ -12,9 +12,11 @@ TEST(FormatTextTest, PrintsLikePrintf) {
   EXPECT_EQ(format_text("%%"), "%");
 }
 
-TEST(FormatTextTest, CutsWhatIsTooLong) {
-  const std::string text(1000, 'x');
-  EXPECT_EQ(format_text("%s", text.c_str()), std::string(511, 'x'));
+TEST(FormatTextTest, TextsMayBeOfAnyLength) {
+  for (const std::size_t length : {0, 254, 255, 256, 257, 1000}) {
+    const std::string text(length, 'x');
+    EXPECT_EQ(format_text("%s%d", text.c_str(), 7), text + "7");
+  }
 }
 
 TEST(FormatTextTest, LeavesFiguresOut) {

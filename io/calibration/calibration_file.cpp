@@ -14,6 +14,9 @@
 namespace ldso {
 namespace {
 
+/// Of the FOV model [rad], whose radius is infinite at pi.
+constexpr double kMostOmega = 3.14;
+
 constexpr int kLargestSide = 32768;
 constexpr double kLongestReadoutMs = 200;
 constexpr const char* kFifthLine = "four lines are expected, and perhaps `rolling_shutter MS` as the fifth";
@@ -65,7 +68,7 @@ void check_distortion(const TextFile& file, const TextLine& line, CameraCalibrat
   if (camera.model == CameraModelKind::kPinhole && omega != 0) {
     file.fail(line, "a pinhole camera has no distortion", "expected `Pinhole fx fy cx cy 0`");
   }
-  if (camera.model == CameraModelKind::kFov && (omega < 0 || omega >= 3.14)) {
+  if (camera.model == CameraModelKind::kFov && (omega < 0 || omega >= kMostOmega)) {
     file.fail(line, "omega is " + std::to_string(omega), "the field of view in radians is expected, 0 <= omega < pi");
   }
   const bool zero = camera.distortion == std::array<double, 4>{};

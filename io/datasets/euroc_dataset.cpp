@@ -14,6 +14,7 @@
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -4,8 +4,9 @@
 #include <array>
 #include <cstdio>
 
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -20,9 +21,7 @@ struct LensName {
 constexpr std::array<LensName, 4> kLenses{{{"PINHOLE", 0}, {"FOV", 1}, {"OPENCV", 4}, {"OPENCV_FISHEYE", 4}}};
 
 void append(std::string& text, const char* format, double value) {
-  char buffer[64];
-  const int length = std::snprintf(buffer, sizeof(buffer), format, value + 0.0);  // Not -0.
-  text.append(buffer, static_cast<std::size_t>(length));
+  text += format_text(format, value + 0.0);  // Not -0.
 }
 
 /// A place of a point among the observations of an image; both count from what COLMAP counts them from.

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "io/text/text_file.h"
 #include "util/bytes.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/datasets/test_sequences.h"
-#include "io/text/text_file.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -10,9 +10,14 @@
 
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
+
+/// Norm of R R^T - 1 that rounding to a few digits may leave of a rotation.
+constexpr double kMostRotationError = 0.01;
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
@@ -48,7 +53,7 @@ SE3d parse_kitti_pose(const TextFile& file, const TextLine& line) {
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
   for (int i = 0; i < 12; ++i) T(i / 4, i % 4) = file.finite_number(line, static_cast<std::size_t>(i));
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
-  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 0.01 || R.determinant() < 0) {
+  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > kMostRotationError || R.determinant() < 0) {
     file.fail(line, "columns 1-3, 5-7, 9-11 are not a rotation", "expected the rows of [R t], 12 numbers");
   }
   return SE3d(SO3d::from_matrix(R), T.topRightCorner<3, 1>());
@@ -71,11 +76,7 @@ void check_finite(const std::filesystem::path& path, const StampedPose& pose) {
   }
 }
 
-void append(std::string& text, const char* format, double value) {
-  char buffer[512];
-  const int length = std::snprintf(buffer, sizeof buffer, format, value);
-  text.append(buffer, static_cast<std::size_t>(length));
-}
+void append(std::string& text, const char* format, double value) { text += format_text(format, value); }
 
 /// `header`, then a line for each pose, to which `append_pose(text, pose)` adds its columns.
 template <class AppendPose>

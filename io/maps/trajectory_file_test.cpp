@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "io/datasets/test_sequences.h"
-#include "io/text/text_file.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

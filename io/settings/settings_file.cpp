@@ -15,6 +15,7 @@
 #include "io/text/nearest_name.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -54,21 +54,5 @@ TEST(ParseNumber, TakesWholeFieldsOnly) {
   for (const char* text : {"", "1,5", "1.5 ", "0x10", "one"}) EXPECT_FALSE(parse_number(text, value)) << text;
 }
 
-TEST(WriteFile, ReplacesTheFileAndLeavesNothingBeside) {
-  const TemporaryFolder folder;
-  write_file(folder / "out.txt", "first");
-  write_file(folder / "out.txt", "second");
-  EXPECT_EQ(read_file(folder / "out.txt"), "second");
-  int files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
-  EXPECT_EQ(files, 1);
-}
-
-TEST(WriteFile, SaysWhichFileCannotBeWritten) {
-  const TemporaryFolder folder;
-  const std::string message = error_of([&] { write_file(folder / "no_such_folder/out.txt", "x"); });
-  EXPECT_NE(message.find("no_such_folder/out.txt"), std::string::npos) << message;
-}
-
 }  // namespace
 }  // namespace ldso

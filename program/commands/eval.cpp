@@ -1,7 +1,6 @@
-#include "commands/eval.h"
+#include "commands/commands.h"
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -11,7 +10,9 @@
 #include "evaluation/trajectory_evaluation.h"
 #include "evaluation/trajectory_picture.h"
 #include "evaluation/trajectory_source.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -52,11 +53,10 @@ void add_options(CLI::App& command, EvalArguments& a) {
   command.add_option("--title", a.title, "Title of the picture");
 }
 
-void write_json(const fs::path& path, const EvaluationResult& result) {
-  std::ofstream file(path, std::ios::binary);
-  file << result_json(result);
-  file.close();
-  if (!file) throw Error(path.string(), "cannot write the figures", "check that the folder exists and is writable");
+/// Found out before anything is computed.
+void check_outputs(const EvalArguments& a) {
+  if (a.json) refuse_other_file(*a.json, {kResultJsonBeginning}, "a file of figures that ldso wrote");
+  if (a.picture) refuse_other_file(*a.picture, {"<svg "}, "an SVG picture");
 }
 
 /// Files without times can only be compared pose by pose, and only with another that has as many.
@@ -70,6 +70,7 @@ bool must_pair_by_index(const LoadedTrajectory& estimate, const LoadedTrajectory
 }
 
 void run_eval(const EvalArguments& a) {
+  check_outputs(a);
   const LoadedTrajectory estimate = load_trajectory(a.estimate, a.times);
   const LoadedTrajectory truth = load_trajectory(a.truth, a.times);
   EvaluationOptions options = a.options;
@@ -82,7 +83,7 @@ void run_eval(const EvalArguments& a) {
   std::cout << "estimate      " << a.estimate.string() << " (" << estimate.description << ")\n"
             << "ground truth  " << a.truth.string() << " (" << truth.description << ")\n"
             << result_table(result, metric);
-  if (a.json) write_json(*a.json, result);
+  if (a.json) write_file(*a.json, result_json(result));
   if (a.picture) {
     PictureOptions picture;
     picture.title = a.title;

@@ -1,4 +1,4 @@
-#include "commands/export.h"
+#include "commands/commands.h"
 
 #include <algorithm>
 #include <array>
@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "ldso/io/pcd_file.h"
 #include "ldso/io/ply_file.h"
 #include "ldso/io/trajectory_file.h"
 #include "output/colmap_export.h"
 #include "output/finished_run.h"
-#include "output/run_files.h"
 #include "viewer/recording/recorded_map.h"
 #include "viewer/recording/recording_file.h"
 
@@ -86,14 +86,14 @@ ColmapImages parse_images(const std::string& name) {
 
 struct Format {
   const char* name;
-  const char* file;  ///< Below the folder of the exports.
+  const char* file;  ///< Below the folder of the exports; a folder ends in "/".
   void (*write)(const fs::path& path, Source& source, const ExportArguments& a);
 };
 
 constexpr std::array<Format, 7> kFormats{{
     {"ply", "map.ply", [](const fs::path& path, Source& s, const ExportArguments&) { write_ply(path, s.cloud()); }},
     {"pcd", "map.pcd", [](const fs::path& path, Source& s, const ExportArguments&) { write_pcd(path, s.cloud()); }},
-    {"colmap", "colmap",
+    {"colmap", "colmap/",
      [](const fs::path& path, Source& s, const ExportArguments& a) {
        export_colmap(path, s.run(), s.map(), parse_images(a.images));
      }},
@@ -106,6 +106,10 @@ constexpr std::array<Format, 7> kFormats{{
     {"csv", "trajectory.csv",
      [](const fs::path& path, Source& s, const ExportArguments&) { write_csv_trajectory(path, s.trajectory()); }},
 }};
+
+bool is_wanted(const Format& format, const ExportArguments& a) {
+  return std::find(a.formats.begin(), a.formats.end(), format.name) != a.formats.end();
+}
 
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
@@ -132,14 +136,30 @@ void add_options(CLI::App& command, ExportArguments& a) {
   command.add_option("--sequence", a.sequence, "Where the sequence is, if it is not where it was");
 }
 
+/// The folder of the exports. In a run's own there were none but ldso's before it kept a list.
+OutputFolder open_export_folder(const ExportArguments& a) {
+  OutputFolder out(a.out.value_or(a.run / "export"));
+  std::vector<std::string> names;
+  if (!a.out && !out.has_list()) {
+    for (const Format& format : kFormats) names.emplace_back(format.file);
+    out.adopt(names);
+  }
+  names.clear();
+  for (const Format& format : kFormats) {
+    if (is_wanted(format, a)) names.emplace_back(format.file);
+  }
+  out.check(names);
+  return out;
+}
+
 void export_run(const ExportArguments& a) {
   Source source(a);
-  const fs::path folder = a.out.value_or(a.run / "export");
-  make_output_folder(folder);
+  OutputFolder out = open_export_folder(a);
   for (const Format& format : kFormats) {
-    if (std::find(a.formats.begin(), a.formats.end(), format.name) == a.formats.end()) continue;
-    format.write(folder / format.file, source, a);
-    std::cout << (folder / format.file).string() << "\n";
+    if (!is_wanted(format, a)) continue;
+    const fs::path path = out.file(format.file);
+    format.write(path, source, a);
+    std::cout << path.string() << "\n";
   }
 }
 

@@ -1,5 +1,3 @@
-#include "commands/run.h"
-
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "camera/camera_stream.h"
+#include "commands/commands.h"
 #include "commands/live_truth.h"
 #include "ldso/error.h"
 #include "ldso/io/settings_file.h"
@@ -190,20 +189,22 @@ bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
 }
 
 /// Frames that cannot be read again cost their pictures only.
-void draw_loops(const RunArguments& a, const Dataset& dataset, RunSummary& summary) {
-  remove_loop_pictures(a.out);
+void draw_loops(const RunArguments& a, const Dataset& dataset, OutputFolder& out, RunSummary& summary) {
+  if (out.owns(kLoopPictureFolder)) remove_loop_pictures(out.path());
+  out.remove(kLoopPictureFolder);
   if (!a.loop_pictures) return;
-  for (std::string& warning : write_loop_pictures(a.out, summary.run.result.loops, dataset, summary.run.calibration,
-                                                  summary.settings.photometry)) {
+  out.file(kLoopPictureFolder);
+  for (std::string& warning : write_loop_pictures(out.path(), summary.run.result.loops, dataset,
+                                                  summary.run.calibration, summary.settings.photometry)) {
     std::cerr << "warning: " << warning << "\n";
     summary.warnings.push_back(std::move(warning));
   }
 }
 
 /// A report that cannot be written costs itself only.
-void report(const fs::path& folder, const Dataset& dataset, RunSummary& summary) {
+void report(OutputFolder& out, const Dataset& dataset, RunSummary& summary) {
   try {
-    write_report(folder, summary, dataset);
+    write_report(out.file(kReportName), summary, dataset);
   } catch (const std::exception& error) {
     summary.warnings.push_back(std::string("there is no report: ") + error.what());
     std::cerr << "warning: " << summary.warnings.back() << "\n";
@@ -215,6 +216,16 @@ int exit_code_of(const RunSummary& summary) {
   return summary.trajectory.empty() ? kNothingTrackedExitCode : 0;
 }
 
+/// Nothing that the run reads may lie where its results go.
+void check_output(const RunArguments& a) {
+  if (camera_of(a.sequence.string())) return;
+  std::vector<fs::path> files;
+  for (const std::optional<fs::path>& file : {a.dataset.calibration_file, a.config, a.vocabulary}) {
+    if (file) files.push_back(*file);
+  }
+  refuse_output_in_input(a.out, a.sequence, files);
+}
+
 int run(const RunArguments& a) {
   RunSummary summary;
   summary.sequence_path = a.sequence;
@@ -222,7 +233,7 @@ int run(const RunArguments& a) {
   summary.settings = read_all_settings(a);
   const Input input = open_input(a);
   const Dataset& dataset = *input.dataset;
-  prepare_output_folder(a.out);
+  OutputFolder out = prepare_output_folder(a.out);
 
   LiveRun live(live_options(a, input));
   if (a.view) announce_page(live.url());
@@ -232,10 +243,10 @@ int run(const RunArguments& a) {
   summary.evaluation = evaluate_run(summary.trajectory, dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
   // What was computed is safe before pictures read frames again.
-  write_run_files(a.out, summary, a.kitti);
-  draw_loops(a, dataset, summary);
-  if (!a.no_report) report(a.out, dataset, summary);
-  write_run_json(a.out, summary, dataset);
+  write_run_files(out, summary, a.kitti);
+  draw_loops(a, dataset, out, summary);
+  if (!a.no_report) report(out, dataset, summary);
+  write_run_json(out, summary, dataset);
 
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
   if (!summary.run.error.empty()) {
@@ -259,6 +270,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "Track the camera through a sequence and map what it sees");
   add_options(*command, *arguments);
   command->callback([arguments, &exit_code] {
+    check_output(*arguments);
     const auto action = [&] { return run(*arguments); };
     exit_code = arguments->job ? run_as_job(arguments->out, action) : action();
   });

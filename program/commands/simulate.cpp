@@ -1,4 +1,4 @@
-#include "commands/simulate.h"
+#include "commands/commands.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "commands/view.h"
+#include "commands/commands.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "commands/vocab.h"
+#include "commands/commands.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "commands/training_images.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "odometry/selection/point_selector.h"
 #include "place/default_vocabulary.h"
@@ -19,6 +20,7 @@
 #include "place/vocabulary_file.h"
 #include "place/vocabulary_trainer.h"
 #include "terminal/progress_bar.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -111,6 +113,7 @@ void check_output(const fs::path& output) {
   if (!fs::is_directory(folder, error))
     throw Error(output.string(), "the folder of the output does not exist", "create it first");
   if (fs::is_directory(output, error)) throw Error(output.string(), "is a folder", "name a file for the vocabulary");
+  refuse_other_file(output, {kVocabularyMagic}, "a vocabulary of ldso");
 }
 
 Vocabulary train(const TrainArguments& a) {
@@ -142,12 +145,11 @@ std::string description(const Vocabulary& vocabulary) {
     least = std::min(least, vocabulary.weight(word));
     greatest = std::max(greatest, vocabulary.weight(word));
   }
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "words         %zu (%zu without weight)\nnodes         %zu, at most %d children\ndepth         %d\n"
-                "weights       %.3f .. %.3f\n",
-                vocabulary.word_count(), weightless, vocabulary.node_count(), vocabulary.branching(),
-                vocabulary.depth(), static_cast<double>(least), static_cast<double>(greatest));
+  const std::string text = format_text(
+      "words         %zu (%zu without weight)\nnodes         %zu, at most %d children\ndepth         %d\n"
+      "weights       %.3f .. %.3f\n",
+      vocabulary.word_count(), weightless, vocabulary.node_count(), vocabulary.branching(), vocabulary.depth(),
+      static_cast<double>(least), static_cast<double>(greatest));
   return text + ("origin        " + (vocabulary.origin().empty() ? "not told" : vocabulary.origin()) + "\n");
 }
 
@@ -163,9 +165,7 @@ void run_info(const std::optional<fs::path>& path) {
   const Vocabulary vocabulary = path ? read_vocabulary(*path) : default_vocabulary();
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
   std::cout << "vocabulary    " << (path ? path->string() : "(built in)") << "\n" << description(vocabulary);
-  char text[64];
-  std::snprintf(text, sizeof(text), "loaded in     %.1f ms\n", elapsed.count());
-  std::cout << text;
+  std::cout << format_text("loaded in     %.1f ms\n", elapsed.count());
 }
 
 void run_convert(const ConvertArguments& a) {

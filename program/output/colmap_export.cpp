@@ -8,7 +8,9 @@
 #include "geometry/camera_model.h"
 #include "image/frame_preprocessor.h"
 #include "io/images/image_file.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -40,11 +42,7 @@ bool is_inside(const Eigen::Vector2d& pixel, const CameraCalibration& camera) {
   return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 && pixel.y() < camera.height - 0.5;
 }
 
-std::string image_name(std::int64_t frame_id) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%06lld.png", static_cast<long long>(frame_id));
-  return text;
-}
+std::string image_name(std::int64_t frame_id) { return format_text("%06lld.png", static_cast<long long>(frame_id)); }
 
 /// The image of a frame as a file of its own, under its own name if it is one already.
 std::string write_original(const Dataset& dataset, std::int64_t frame_id, const fs::path& folder) {
@@ -52,7 +50,11 @@ std::string write_original(const Dataset& dataset, std::int64_t frame_id, const 
   const fs::path source = frame.name;
   std::error_code error;
   if (fs::is_regular_file(source, error) && has_image_extension(source)) {
-    fs::copy_file(source, folder / source.filename(), fs::copy_options::overwrite_existing);
+    fs::copy_file(source, folder / source.filename(), fs::copy_options::overwrite_existing, error);
+    if (error) {
+      throw Error(source.string(), "cannot be copied to " + folder.string() + " (" + error.message() + ")",
+                  "check the permissions and the free space");
+    }
     return source.filename().string();
   }
   std::string name = image_name(frame_id);
@@ -71,7 +73,7 @@ Image<float> rectified_image(const Dataset& dataset, std::int64_t frame_id, cons
 /// Of all keyframes; the grey levels are those of the camera. Returns the names.
 std::vector<std::string> write_images(const RecordedMap& map, const Dataset& dataset, ColmapImages images,
                                       const fs::path& folder) {
-  fs::create_directories(folder);
+  create_folder(folder);
   Calibration calibration;
   calibration.camera = dataset.calibration().camera;
   calibration.rectification = dataset.calibration().rectification;

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "output/run_files.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

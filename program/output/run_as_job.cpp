@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "experiment/jobs/job_file.h"
 #include "experiment/jobs/job_folder.h"
 #include "experiment/jobs/run_file.h"
 #include "ldso/error.h"
@@ -56,6 +57,14 @@ class OutputToFile {
   int out_ = -1, error_ = -1;
 };
 
+/// What an experiment wrote into the folder of a job is ldso's as well.
+OutputFolder open_job_folder(const fs::path& folder) {
+  OutputFolder out = open_run_folder(folder);
+  if (has_job(folder)) out.adopt({kLogName, kFailureName});
+  out.check({kLogName, kFailureName, kRunJson});
+  return out;
+}
+
 bool has_ended(const fs::path& folder) {
   if (read_run(folder).state == RunState::kPending) return false;
   std::cout << folder.string() << ": has a result already\n";
@@ -68,8 +77,8 @@ struct LoggedRun {
   std::optional<std::string> error;
 };
 
-LoggedRun run_logged(const fs::path& folder, const std::function<int()>& run) {
-  const OutputToFile redirection(folder / "log.txt");
+LoggedRun run_logged(const fs::path& log, const std::function<int()>& run) {
+  const OutputToFile redirection(log);
   try {
     return {run(), std::nullopt};
   } catch (const std::exception& error) {
@@ -81,7 +90,7 @@ LoggedRun run_logged(const fs::path& folder, const std::function<int()>& run) {
 }  // namespace
 
 int run_as_job(const fs::path& folder, const std::function<int()>& run) {
-  make_output_folder(folder);
+  OutputFolder out = open_job_folder(folder);
   if (has_ended(folder)) return 0;
   const std::optional<JobLock> lock = JobLock::try_acquire(folder);
   if (!lock) {
@@ -90,7 +99,8 @@ int run_as_job(const fs::path& folder, const std::function<int()>& run) {
   }
   if (has_ended(folder)) return 0;
   clear_run(folder);
-  const LoggedRun result = run_logged(folder, run);
+  out.file(kFailureName);
+  const LoggedRun result = run_logged(out.file(kLogName), run);
   if (result.error && read_run(folder).state == RunState::kPending)
     write_failure(folder, {1, std::nullopt, *result.error});
   if (result.error) std::cerr << "error: " << *result.error << "\n";

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 
 #include "evaluation/trajectory_picture.h"
-#include "io/text/text_file.h"
+#include "experiment/jobs/job_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/ply_file.h"
 #include "ldso/io/trajectory_file.h"
 #include "report/report_page.h"
+#include "results/loop_pictures.h"
 #include "results/loops_json.h"
+#include "util/whole_file.h"
 #include "viewer/recording/recording_file.h"
 
 namespace ldso {
@@ -20,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRemedy = "give a folder that can be written by -o";
+constexpr const char* kOwnFolder = "give a folder of its own for the results";
+constexpr const char* kBetterCameraName = "camera_better.txt";
 
 std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
   std::vector<PlyPoint> cloud;
@@ -33,65 +37,111 @@ std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
   return cloud;
 }
 
-void write_picture(const fs::path& folder, const RunSummary& summary) {
-  const fs::path path = folder / "trajectory.svg";
-  fs::remove(path);
+void write_picture(OutputFolder& out, const RunSummary& summary) {
+  out.remove("trajectory.svg");
   if (!summary.evaluation.result) return;
   PictureOptions options;
   options.title = summary.sequence_path.lexically_normal().string();
-  write_trajectory_picture(path, summary.trajectory, *summary.evaluation.truth, *summary.evaluation.result, options);
+  write_trajectory_picture(out.file("trajectory.svg"), summary.trajectory, *summary.evaluation.truth,
+                           *summary.evaluation.result, options);
 }
 
 /// What loop closing started from, and what it found.
-void write_loop_files(const fs::path& folder, const RunSummary& summary) {
-  for (const char* name : {"trajectory_odometry.txt", "map_odometry.ply", "loops.json"}) fs::remove(folder / name);
+void write_loop_files(OutputFolder& out, const RunSummary& summary) {
+  for (const char* name : {"trajectory_odometry.txt", "map_odometry.ply", "loops.json"}) out.remove(name);
   if (!summary.settings.loops.enabled) return;
-  write_tum_trajectory(folder / "trajectory_odometry.txt", summary.odometry_trajectory);
-  write_ply(folder / "map_odometry.ply", ply_points(summary.odometry_points));
-  write_file(folder / "loops.json", loops_json(summary.run.result.loops).dump(2) + "\n");
+  write_tum_trajectory(out.file("trajectory_odometry.txt"), summary.odometry_trajectory);
+  write_ply(out.file("map_odometry.ply"), ply_points(summary.odometry_points));
+  write_file(out.file("loops.json"), loops_json(summary.run.result.loops).dump(2) + "\n");
+}
+
+/// All that a run may write, but for calibrations.
+std::vector<std::string> result_names() {
+  return {"trajectory.txt", "trajectory_odometry.txt", "trajectory_kitti.txt", "trajectory.svg", "keyframes.txt",
+          "map.ply",        "map_odometry.ply",        "loops.json",           kRecordingName,   kReportName,
+          kRunJson,         kLoopPictureFolder};
+}
+
+std::vector<std::string> all_names() {
+  std::vector<std::string> names = result_names();
+  names.insert(names.end(), {kCameraName, kBetterCameraName});
+  return names;
+}
+
+/// What run.json says of a run; null if there is none that ldso wrote.
+nlohmann::json earlier_run(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / kRunJson, error)) return nullptr;
+  nlohmann::json json = nlohmann::json::parse(read_file(folder / kRunJson), nullptr, false);
+  return json.is_object() && json.contains("/versions/ldso"_json_pointer) ? json : nullptr;
+}
+
+bool contains(const fs::path& folder, const fs::path& path) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 }  // namespace
 
-void make_output_folder(const fs::path& folder) {
+OutputFolder open_run_folder(const fs::path& folder) {
+  OutputFolder out(folder);
+  if (out.has_list()) return out;
+  // In the folder of a job nobody else writes, and its run.json is removed before it is run again.
+  if (has_job(folder)) {
+    out.adopt(all_names());
+    return out;
+  }
+  std::vector<std::string> names;
+  if (const nlohmann::json run = earlier_run(folder); !run.is_null()) {
+    names = result_names();
+    if (run.value("/self_calibration/corrected"_json_pointer, false)) names.emplace_back(kCameraName);
+    if (run.value("/live/calibration_is_wrong"_json_pointer, false)) names.emplace_back(kBetterCameraName);
+  }
+  out.adopt(names);
+  return out;
+}
+
+OutputFolder prepare_output_folder(const fs::path& folder) {
+  OutputFolder out = open_run_folder(folder);
+  out.check(all_names());
+  for (const char* name : {kRunJson, kReportName}) out.remove(name);
+  return out;
+}
+
+void refuse_output_in_input(const fs::path& folder, const fs::path& sequence, const std::vector<fs::path>& files) {
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw Error(folder.string(), "the output folder cannot be created" + (error ? " (" + error.message() + ")" : ""),
-                kRemedy);
+  const fs::path out = real_path(folder), input = real_path(sequence);
+  const bool is_folder = fs::is_directory(input, error);
+  if (out == (is_folder ? input : input.parent_path()))
+    throw Error(folder.string(), "is the folder of the sequence itself", kOwnFolder);
+  const bool is_used = fs::is_directory(out, error) && !fs::is_empty(out, error);
+  if (is_folder && is_used && contains(input, out) && !OutputFolder::is_one(out) && earlier_run(out).is_null())
+    throw Error(folder.string(), "is a part of the sequence", kOwnFolder);
+  const std::vector<std::string> names = all_names();
+  for (const fs::path& file : files) {
+    const fs::path path = real_path(file);
+    if (path.parent_path() != out || std::find(names.begin(), names.end(), path.filename()) == names.end()) continue;
+    throw Error(file.string(), "is read by this run, whose results would replace it",
+                "give another folder by -o, or copy the file");
   }
 }
 
-void prepare_output_folder(const fs::path& folder) {
-  make_output_folder(folder);
-  std::error_code error;
-  const fs::path probe = folder / ".ldso_write_test";
-  std::ofstream file(probe);
-  file << "ldso\n";
-  file.close();
-  const bool writable = !file.fail();
-  fs::remove(probe, error);
-  if (!writable) throw Error(folder.string(), "the output folder cannot be written", kRemedy);
-  for (const char* name : {kRunJson, kReportName}) fs::remove(folder / name);
-}
-
-void write_run_files(const fs::path& folder, const RunSummary& summary, bool kitti) {
-  write_tum_trajectory(folder / "trajectory.txt", summary.trajectory);
-  write_tum_trajectory(folder / "keyframes.txt", summary.keyframes);
-  fs::remove(folder / "trajectory_kitti.txt");
-  if (kitti) write_kitti_poses(folder / "trajectory_kitti.txt", summary.trajectory);
-  write_ply(folder / "map.ply", ply_points(summary.points));
-  write_loop_files(folder, summary);
-  write_picture(folder, summary);
-  write_recording(folder / kRecordingName, summary.recording);
-  for (const char* name : {"camera.txt", "camera_better.txt"}) fs::remove(folder / name);
-  if (summary.run.passes > 1) write_file(folder / "camera.txt", camera_file_text(summary.run.calibration));
+void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti) {
+  write_tum_trajectory(out.file("trajectory.txt"), summary.trajectory);
+  write_tum_trajectory(out.file("keyframes.txt"), summary.keyframes);
+  out.remove("trajectory_kitti.txt");
+  if (kitti) write_kitti_poses(out.file("trajectory_kitti.txt"), summary.trajectory);
+  write_ply(out.file("map.ply"), ply_points(summary.points));
+  write_loop_files(out, summary);
+  write_picture(out, summary);
+  write_recording(out.file(kRecordingName), summary.recording);
+  for (const char* name : {kCameraName, kBetterCameraName}) out.remove(name);
+  if (summary.run.passes > 1) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
   if (summary.run.better_calibration)
-    write_file(folder / "camera_better.txt", camera_file_text(*summary.run.better_calibration));
+    write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.better_calibration));
 }
 
-void write_run_json(const fs::path& folder, const RunSummary& summary, const Dataset& dataset) {
-  write_file(folder / kRunJson, run_json(summary, dataset).dump(2) + "\n");
+void write_run_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset) {
+  write_file(out.file(kRunJson), run_json(summary, dataset).dump(2) + "\n");
 }
 
 }  // namespace ldso

@@ -18,6 +18,7 @@ namespace {
 constexpr double kWidth = 900, kLeft = 90, kRight = 25;
 constexpr double kStripHeight = 96, kStripGap = 20, kAxisRoom = 48, kTop = 10;
 constexpr double kHistogramHeight = 220;
+constexpr double kLoopWidth = 0.002;  ///< Of a mark, as a share of the strip.
 constexpr int kBins = 48;
 constexpr std::size_t kColumns = 800;  ///< Of a strip, for which more than two values are too many.
 constexpr const char* kFrameColour = "#56B4E9";
@@ -105,7 +106,7 @@ std::string draw_strip(const Strip& strip, const RunSummary& summary, const SvgB
     chart.add_rectangle({static_cast<double>(stretch.first) - 0.5, static_cast<double>(stretch.last) + 0.5}, values,
                         kLostColour, 0.2);
   }
-  const double loop_width = 0.002 * frames.length();
+  const double loop_width = kLoopWidth * frames.length();
   std::unordered_set<std::int64_t> marked;
   for (const LoopRecord& loop : summary.run.result.loops) {
     if (!loop.accepted || !marked.insert(loop.keyframe_id).second) continue;

@@ -4,7 +4,6 @@
 
 #include "evaluation/report.h"
 #include "evaluation/trajectory_picture.h"
-#include "io/text/text_file.h"
 #include "report/frame_charts.h"
 #include "report/html.h"
 #include "report/loop_section.h"
@@ -12,6 +11,7 @@
 #include "report/run_sections.h"
 #include "util/base64.h"
 #include "util/format_text.h"
+#include "util/whole_file.h"
 #include "viewer/recording/recording_limits.h"
 #include "viewer/server/report_script.h"
 
@@ -142,14 +142,14 @@ std::string report_html(const ReportInput& input) {
   return page + "</body>\n</html>\n";
 }
 
-void write_report(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset) {
+void write_report(const std::filesystem::path& path, const RunSummary& summary, const Dataset& dataset) {
   const std::vector<LoopRecord>& loops = summary.run.result.loops;
   ReportInput input{summary, dataset, {}, report_script(), now()};
   // A camera has no frames to be read again.
   const std::vector<std::size_t> shown = loops_to_show(loops, dataset.size() > 0 ? kMostPictures : 0);
   input.pictures = make_loop_pictures(loops, shown, dataset, summary.run.calibration, summary.settings.photometry,
                                       kMostPictureBytes);
-  write_file(folder / kReportName, report_html(input));
+  write_file(path, report_html(input));
 }
 
 }  // namespace ldso

@@ -23,8 +23,8 @@ struct ReportInput {
 /// The whole page. It asks nobody for anything and runs no script but its own.
 std::string report_html(const ReportInput& input);
 
-/// Writes it to the folder of a run, with pictures of some of the loops; the images are read once more for them.
+/// Writes it, with pictures of some of the loops; the images are read once more for them.
 /// Throws Error if it cannot be written.
-void write_report(const std::filesystem::path& folder, const RunSummary& summary, const Dataset& dataset);
+void write_report(const std::filesystem::path& path, const RunSummary& summary, const Dataset& dataset);
 
 }  // namespace ldso

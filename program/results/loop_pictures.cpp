@@ -11,6 +11,7 @@
 #include "image/frame_preprocessor.h"
 #include "io/images/match_picture.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "viewer/map/shrink.h"
 
 namespace ldso {
@@ -18,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolder = "loops";
 constexpr int kAnyWidth = 1 << 20;
 constexpr int kMostReportWidth = 640;  ///< Of each of both images.
 constexpr int kJpegQuality = 72;
@@ -61,28 +61,22 @@ std::string missing_picture(const LoopRecord& loop, const std::exception& error)
 }  // namespace
 
 std::string loop_caption(const LoopRecord& loop) {
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "candidate %lld (left), keyframe %lld (right): %d inliers, %d with depth; scale %.4f +- %.4f, "
-                "rotation %.2f deg",
-                static_cast<long long>(loop.candidate_id), static_cast<long long>(loop.keyframe_id), loop.inliers,
-                loop.depth_inliers, loop.S_keyframe_candidate.scale(),
-                loop.S_keyframe_candidate.scale() * loop.log_scale_stddev,
-                loop.S_keyframe_candidate.rotation().log().norm() * 180 / std::numbers::pi);
-  return text;
+  return format_text(
+      "candidate %lld (left), keyframe %lld (right): %d inliers, %d with depth; scale %.4f +- %.4f, "
+      "rotation %.2f deg",
+      static_cast<long long>(loop.candidate_id), static_cast<long long>(loop.keyframe_id), loop.inliers,
+      loop.depth_inliers, loop.S_keyframe_candidate.scale(), loop.S_keyframe_candidate.scale() * loop.log_scale_stddev,
+      loop.S_keyframe_candidate.rotation().log().norm() * 180 / std::numbers::pi);
 }
 
 void remove_loop_pictures(const fs::path& folder) {
   static const std::regex kName(R"(\d+_\d+\.png)");
   std::error_code ignored;
   std::vector<fs::path> pictures;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / kFolder, ignored)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / kLoopPictureFolder, ignored)) {
     if (std::regex_match(entry.path().filename().string(), kName)) pictures.push_back(entry.path());
   }
   for (const fs::path& picture : pictures) fs::remove(picture, ignored);
-  if (fs::is_directory(folder / kFolder, ignored) && fs::is_empty(folder / kFolder, ignored)) {
-    fs::remove(folder / kFolder, ignored);
-  }
 }
 
 std::vector<std::string> write_loop_pictures(const fs::path& folder, std::span<const LoopRecord> loops,
@@ -95,8 +89,9 @@ std::vector<std::string> write_loop_pictures(const fs::path& folder, std::span<c
     if (!loop.accepted) continue;
     const std::string name = std::to_string(loop.keyframe_id) + "_" + std::to_string(loop.candidate_id) + ".png";
     try {
-      fs::create_directories(folder / kFolder);
-      write_png(folder / kFolder / name, draw_picture(loop, dataset, preprocessor, loop_caption(loop)).view());
+      fs::create_directories(folder / kLoopPictureFolder);
+      write_png(folder / kLoopPictureFolder / name,
+                draw_picture(loop, dataset, preprocessor, loop_caption(loop)).view());
     } catch (const std::exception& error) {
       warnings.push_back(missing_picture(loop, error));
     }

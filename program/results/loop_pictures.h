@@ -14,6 +14,9 @@
 
 namespace ldso {
 
+/// In the folder of a run.
+inline constexpr const char* kLoopPictureFolder = "loops/";
+
 /// Writes loops/<keyframe>_<candidate>.png below `folder` for each accepted loop: the candidate on the left, the
 /// keyframe on the right, rectified. Their images are read once more from `dataset`, which must be played as it was
 /// for the run; `calibration` and `photometry` are those of the run. Returns why pictures are missing, one text for
@@ -38,7 +41,7 @@ LoopPictures make_loop_pictures(std::span<const LoopRecord> loops, std::span<con
                                 const Dataset& dataset, const Calibration& calibration,
                                 const PhotometrySettings& photometry, std::size_t most_bytes);
 
-/// Removes what write_loop_pictures() wrote there in an earlier run, and nothing else.
+/// Removes what write_loop_pictures() wrote there in an earlier run, and nothing else. Throws nothing.
 void remove_loop_pictures(const std::filesystem::path& folder);
 
 /// What stands below the picture.

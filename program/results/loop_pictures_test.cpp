@@ -125,7 +125,7 @@ TEST_F(LoopPictures, RemovesItsOwnPicturesOnly) {
   const std::vector<LoopRecord> loops{loop(4, 1)};
   write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {});
   remove_loop_pictures(folder_);
-  EXPECT_FALSE(fs::exists(folder_ / "loops"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "loops"));
   write_loop_pictures(folder_, loops, GreyDataset(), GreyDataset().calibration(), {});
   std::ofstream(folder_ / "loops" / "notes.txt") << "mine\n";
   remove_loop_pictures(folder_);

@@ -1,11 +1,13 @@
 #include "viewer/live_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
 #include <utility>
 
 #include "io/images/image_file.h"
 #include "viewer/map/shrink.h"
-#include "viewer/process_memory.h"
 #include "viewer/server/random_id.h"
 
 namespace ldso {
@@ -16,10 +18,25 @@ constexpr std::chrono::milliseconds kStatusInterval(250);
 constexpr std::chrono::milliseconds kAlignmentInterval(1000);
 /// The share of the time that aligning with the ground truth may take: one over this.
 constexpr int kAlignmentShare = 50;
+
+/// Of the camera's image on the page: sharp enough, and some 50 kB each.
 constexpr int kMostImageWidth = 720;
 constexpr int kJpegQuality = 80;
+
+/// Weight of the newest rate in the one that is shown: an average over about two seconds.
+constexpr double kNewRateShare = 0.25;
+/// Frames per second that count as none.
+constexpr float kLeastRate = 0.05f;
 /// Frames after which a run without a server tidies its feed up.
 constexpr int kFetchInterval = 50;
+
+/// What the program holds at the moment: resident [MB]; 0 where it cannot be told.
+double process_memory_mb() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0, resident = 0;
+  file >> total >> resident;
+  return file ? resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6 : 0;
+}
 
 protocol::Hello make_hello(const LiveRunOptions& options) {
   protocol::Hello hello;
@@ -44,7 +61,10 @@ LiveRun::LiveRun(LiveRunOptions options)
       });
 }
 
-LiveRun::~LiveRun() = default;
+LiveRun::~LiveRun() {
+  server_.reset();  // Shows how it ended.
+  feed_->close();
+}
 
 void LiveRun::after_frame(int done, int count, const std::atomic<bool>& stop, int dropped) {
   dropped_.store(dropped);
@@ -129,9 +149,8 @@ void LiveRun::update_status(LiveMap& map, std::size_t viewers) {
     const std::chrono::duration<double> elapsed = now - last_status_;
     const auto done = static_cast<std::uint32_t>(done_.load());
     const double rate = done >= status.done ? (done - status.done) / elapsed.count() : 0;
-    // An average over about two seconds.
-    status.frames_per_s = static_cast<float>(status.frames_per_s + 0.25 * (rate - status.frames_per_s));
-    if (status.frames_per_s < 0.05f) status.frames_per_s = 0;
+    status.frames_per_s = static_cast<float>(status.frames_per_s + kNewRateShare * (rate - status.frames_per_s));
+    if (status.frames_per_s < kLeastRate) status.frames_per_s = 0;
     status.done = done;
     status.count = static_cast<std::uint32_t>(count_.load());
     status.dropped = static_cast<std::uint32_t>(dropped_.load());

@@ -5,21 +5,37 @@
 
 namespace ldso {
 
-void RunFeed::on_start(const PinholeIntrinsics& camera) {
+template <class Leave>
+void RunFeed::leave(Leave leave) {
   const std::lock_guard lock(mutex_);
-  ++hello_.epoch;
-  hello_.camera = camera;
-  newest_frame_ = -1;
-  Inbox fresh;
-  fresh.start = hello_;
-  fresh.log = std::move(inbox_.log);
-  inbox_ = std::move(fresh);
+  if (!is_closed_) leave(inbox_);
+}
+
+void RunFeed::close() {
+  Inbox dropped;  // Let go of outside of the lock.
+  wants_view_.store(false, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  is_closed_ = true;
+  std::swap(dropped, inbox_);
+}
+
+void RunFeed::on_start(const PinholeIntrinsics& camera) {
+  leave([&](Inbox& inbox) {
+    ++hello_.epoch;
+    hello_.camera = camera;
+    newest_frame_ = -1;
+    Inbox fresh;
+    fresh.start = hello_;
+    fresh.log = std::move(inbox.log);
+    inbox = std::move(fresh);
+  });
 }
 
 void RunFeed::on_frame(FrameEvent event) {
-  const std::lock_guard lock(mutex_);
-  newest_frame_ = std::max(newest_frame_, event.frame.frame_id);
-  inbox_.frames.push_back(std::move(event));
+  leave([&](Inbox& inbox) {
+    newest_frame_ = std::max(newest_frame_, event.frame.frame_id);
+    inbox.frames.push_back(std::move(event));
+  });
 }
 
 void RunFeed::on_keyframe(const KeyframeUpdate& keyframe, const PinholeIntrinsics& camera) {
@@ -27,26 +43,22 @@ void RunFeed::on_keyframe(const KeyframeUpdate& keyframe, const PinholeIntrinsic
       protocol::to_keyframe(keyframe.frame_id, keyframe.T_world_camera, keyframe.points, camera, keyframe.readout);
   shown.timestamp = keyframe.timestamp;
   for (const KeyframeConstraint& constraint : keyframe.constraints) shown.links.push_back(constraint.keyframe_id);
-  const std::lock_guard lock(mutex_);
-  inbox_.keyframes.push_back(std::move(shown));
+  leave([&](Inbox& inbox) { inbox.keyframes.push_back(std::move(shown)); });
 }
 
 void RunFeed::on_loops(LoopEvent event) {
   loop_candidates_.store(event.candidates, std::memory_order_relaxed);
-  const std::lock_guard lock(mutex_);
-  inbox_.loops.push_back(std::move(event));
+  leave([&](Inbox& inbox) { inbox.loops.push_back(std::move(event)); });
 }
 
 void RunFeed::on_view(LiveView view) {
   wants_view_.store(false, std::memory_order_relaxed);
   std::optional<LiveView> previous(std::move(view));  // What it replaces is let go of outside of the lock.
-  const std::lock_guard lock(mutex_);
-  inbox_.view.swap(previous);
+  leave([&](Inbox& inbox) { inbox.view.swap(previous); });
 }
 
 void RunFeed::add_log(LogLevel level, const std::string& text) {
-  const std::lock_guard lock(mutex_);
-  inbox_.log.push_back({newest_frame_, level == LogLevel::kWarning, text});
+  leave([&](Inbox& inbox) { inbox.log.push_back({newest_frame_, level == LogLevel::kWarning, text}); });
 }
 
 std::optional<LiveView> RunFeed::fetch(LiveMap& map) {

@@ -35,6 +35,9 @@ class RunFeed final : public RunObserver {
   /// Moves everything to the map; the newest view, if there is one, is returned. From one thread at a time.
   std::optional<LiveView> fetch(LiveMap& map);
 
+  /// Nobody will fetch any more: what is left from now on is dropped. For a run that outlives its viewer.
+  void close();
+
   /// From now on, until one has come, the next frame's view is wanted.
   void request_view() { wants_view_.store(true, std::memory_order_relaxed); }
 
@@ -50,8 +53,13 @@ class RunFeed final : public RunObserver {
     std::optional<LiveView> view;
   };
 
+  /// Calls it with the inbox under the lock, unless the feed is closed.
+  template <class Leave>
+  void leave(Leave leave);
+
   std::mutex mutex_;
   Inbox inbox_;
+  bool is_closed_ = false;
   protocol::Hello hello_;
   std::int64_t newest_frame_ = -1;
   std::atomic<bool> wants_view_{false};

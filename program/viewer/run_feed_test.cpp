@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <thread>
+
+#include "viewer/live_run.h"
 
 namespace ldso {
 namespace {
@@ -62,6 +65,38 @@ TEST(RunFeed, ANewBeginningVoidsWhatWasNotFetched) {
   EXPECT_EQ(map.frames(), 0u);
   EXPECT_EQ(map.hello().epoch, 2u);
   EXPECT_EQ(messages_of(map), 2u);  // hello and log
+}
+
+TEST(RunFeed, NothingIsKeptForAViewerThatIsGone) {
+  RunFeed feed({});
+  LiveMap map;
+  feed.on_start(kCamera);
+  feed.on_frame({});
+  feed.request_view();
+  feed.close();
+  EXPECT_FALSE(feed.wants_view());
+  feed.on_start(kCamera);
+  feed.on_frame({});
+  feed.on_keyframe({}, kCamera);
+  feed.on_loops({});
+  feed.on_view({});
+  feed.add_log(LogLevel::kWarning, "nobody hears it");
+  EXPECT_FALSE(feed.fetch(map));
+  EXPECT_EQ(map.frames(), 0u);
+  EXPECT_EQ(messages_of(map), 0u);
+}
+
+TEST(LiveRun, ItsObserverMayOutliveIt) {
+  std::shared_ptr<RunObserver> observer;
+  {
+    const LiveRun run({});
+    observer = run.observer();
+  }
+  observer->on_start(kCamera);
+  observer->on_frame({});
+  LiveMap map;
+  dynamic_cast<RunFeed&>(*observer).fetch(map);
+  EXPECT_EQ(map.frames(), 0u);
 }
 
 TEST(RunFeed, KeyframesAndLoopsReachTheMap) {

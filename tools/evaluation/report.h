@@ -2,6 +2,7 @@
 // What `ldso eval` says: the result as a table for people and as JSON for programs.
 
 #include <string>
+#include <string_view>
 
 #include "evaluation/trajectory_evaluation.h"
 
@@ -24,6 +25,9 @@ void require_metric(const EvaluationResult& result, ReportMetric metric);
 /// Several lines, each ending in a newline; every figure on a line of its own that begins with its name. What does not
 /// exist for this pair of trajectories is left out.
 std::string result_table(const EvaluationResult& result, ReportMetric metric = ReportMetric::kAll);
+
+/// By which a file of result_json() is recognized.
+inline constexpr std::string_view kResultJsonBeginning = "{\n  \"pairs\":";
 
 /// A JSON object, indented; figures that do not exist for this pair of trajectories are null.
 std::string result_json(const EvaluationResult& result);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "util/format_text.h"
+
 namespace ldso {
 namespace {
 
@@ -11,17 +13,11 @@ constexpr double kTickSize = 12;   ///< Font size [px].
 constexpr double kLabelSize = 14;  ///< Font size [px].
 constexpr double kPixelsPerTick = 80;
 
-std::string px(double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.1f", value);
-  return text;
-}
+std::string px(double value) { return format_text("%.1f", value); }
 
 std::string tick_text(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value == 0 ? 0.0 : value);
-  return text;
+  return format_text("%.*f", decimals, value == 0 ? 0.0 : value);
 }
 
 std::string svg_line(double x1, double y1, double x2, double y2, const char* colour) {
@@ -94,8 +90,7 @@ std::vector<Tick> log_ticks(const Range& exponents) {
     for (const double mantissa : mantissas) {
       const double position = power + std::log10(mantissa);
       if (position < exponents.min - kTolerance || position > exponents.max + kTolerance) continue;
-      char text[64];
-      std::snprintf(text, sizeof(text), "%.6g", mantissa * std::pow(10.0, power));
+      const std::string text = format_text("%.6g", mantissa * std::pow(10.0, power));
       ticks.push_back({position, text});
     }
   }
@@ -191,9 +186,9 @@ void SvgChart::add_rectangle(const Range& x, const Range& y, const std::string& 
   const Eigen::Vector2d high(std::min(x.max, x_.max), std::min(y.max, y_.max));
   if (!(low.x() < high.x() && low.y() < high.y())) return;
   const Eigen::Vector2d bottom_left = to_pixel(low), top_right = to_pixel(high);
-  char shape[160];
-  std::snprintf(shape, sizeof(shape), "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"", bottom_left.x(),
-                top_right.y(), top_right.x() - bottom_left.x(), bottom_left.y() - top_right.y());
+  const std::string shape =
+      format_text("<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"", bottom_left.x(), top_right.y(),
+                  top_right.x() - bottom_left.x(), bottom_left.y() - top_right.y());
   svg_ += shape + (" fill=\"" + colour + "\" fill-opacity=\"") + px(opacity) + "\"/>\n";
 }
 

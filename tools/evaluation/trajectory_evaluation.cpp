@@ -1,22 +1,18 @@
 #include "evaluation/trajectory_evaluation.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "evaluation/absolute_error.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
 
 constexpr std::size_t kLeastPairs = 3;
 
-std::string seconds(double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.3f s", value);
-  return text;
-}
+std::string seconds(double value) { return format_text("%.3f s", value); }
 
 /// "first to last" of the finite poses.
 std::string time_range(const Trajectory& trajectory) {

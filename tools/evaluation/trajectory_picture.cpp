@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "evaluation/svg_chart.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "util/median.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -261,8 +262,7 @@ std::string picture_of(const Map& map, const std::vector<ErrorTrack>& errors, co
 }
 
 std::string error_title(const EvaluationResult& result, const std::string& name) {
-  char text[128];
-  std::snprintf(text, sizeof(text), "ATE %.4g m rmse", result.absolute.rmse);
+  const std::string text = format_text("ATE %.4g m rmse", result.absolute.rmse);
   return name.empty() ? text : name + ": " + text;
 }
 
@@ -281,37 +281,22 @@ std::string alignment_phrase(AlignmentMode mode) {
 }
 
 std::string error_subtitle(const EvaluationResult& result) {
-  char text[256];
-  std::snprintf(text, sizeof(text), "median %.4g m, max %.4g m; %zu poses, %s", result.absolute.median,
-                result.absolute.max, result.pairs.size(), alignment_phrase(result.alignment).c_str());
-  std::string subtitle = text;
+  std::string subtitle =
+      format_text("median %.4g m, max %.4g m; %zu poses, %s", result.absolute.median, result.absolute.max,
+                  result.pairs.size(), alignment_phrase(result.alignment).c_str());
   if (!result.tum_mono) {
-    std::snprintf(text, sizeof(text), "; path %.4g m", result.path_length);
-    subtitle += text;
+    subtitle += format_text("; path %.4g m", result.path_length);
   }
   return subtitle;
 }
 
 std::string loop_subtitle(const EvaluationResult& before, const EvaluationResult& after) {
-  const bool at_start = before.tum_mono && after.tum_mono;
-  char text[256];
-  if (at_start) {
-    std::snprintf(text, sizeof(text),
-                  "e_align %.4g m before, %.4g m after loop closing; both aligned to the start segment",
-                  before.tum_mono->e_align, after.tum_mono->e_align);
-  } else {
-    std::snprintf(text, sizeof(text),
-                  "ATE %.4g m before, %.4g m after loop closing; both aligned over the whole (Sim(3))",
-                  before.absolute.rmse, after.absolute.rmse);
+  if (before.tum_mono && after.tum_mono) {
+    return format_text("e_align %.4g m before, %.4g m after loop closing; both aligned to the start segment",
+                       before.tum_mono->e_align, after.tum_mono->e_align);
   }
-  return text;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path.string(), "cannot write the picture", "check that the folder exists and is writable");
+  return format_text("ATE %.4g m before, %.4g m after loop closing; both aligned over the whole (Sim(3))",
+                     before.absolute.rmse, after.absolute.rmse);
 }
 
 }  // namespace
@@ -366,12 +351,12 @@ std::string loop_picture(const Trajectory& before, const Trajectory& after, cons
 
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate, const Trajectory& truth,
                               const EvaluationResult& result, const PictureOptions& options) {
-  write_text(path, trajectory_picture(estimate, truth, result, options));
+  write_file(path, trajectory_picture(estimate, truth, result, options));
 }
 
 void write_trajectory_picture(const std::filesystem::path& path, const Trajectory& estimate,
                               const PictureOptions& options) {
-  write_text(path, trajectory_picture(estimate, options));
+  write_file(path, trajectory_picture(estimate, options));
 }
 
 }  // namespace ldso

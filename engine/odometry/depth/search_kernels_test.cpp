@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "odometry/test_forced_target.h"
+#include "image/test_forced_target.h"
 #include "odometry/test_synthetic_scene.h"
 
 namespace ldso {

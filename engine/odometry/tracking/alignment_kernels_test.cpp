@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "image/test_forced_target.h"
 #include "odometry/state/brightness.h"
-#include "odometry/test_forced_target.h"
 #include "odometry/test_synthetic_scene.h"
 
 namespace ldso {

@@ -1,14 +1,6 @@
-#include "commands/experiment/experiment.h"
-
 #include <algorithm>
 
-#include "commands/experiment/experiment_compare.h"
-#include "commands/experiment/experiment_run.h"
-#include "commands/experiment/experiment_status.h"
-#include "commands/experiment/experiment_summarize.h"
-#ifdef LDSO_HAS_SIMULATE
-#include "commands/experiment/experiment_demo.h"
-#endif
+#include "commands/experiment/experiment_commands.h"
 
 namespace ldso {
 
@@ -19,11 +11,9 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   command->footer("ldso experiment PLAN -o OUT is short for ldso experiment run PLAN -o OUT.");
   add_experiment_run_command(*command, exit_code);
   add_experiment_status_command(*command);
-  add_summarize_command(*command, exit_code);
-  add_compare_command(*command, exit_code);
-#ifdef LDSO_HAS_SIMULATE
+  add_experiment_summarize_command(*command);
+  add_experiment_compare_command(*command, exit_code);
   add_experiment_demo_command(*command, exit_code);
-#endif
 }
 
 std::vector<std::string> without_experiment_shorthands(std::vector<std::string> arguments, const CLI::App& app) {

@@ -1,4 +1,4 @@
-#include "commands/experiment/experiment_compare.h"
+#include "commands/experiment/experiment_commands.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +13,7 @@
 #include "experiment/results/results_file.h"
 #include "experiment/summary/comparison.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -47,11 +48,8 @@ void print_names(std::ostream& out, const std::string& what, const std::vector<s
 void compare(const CompareArguments& a, int& exit_code) {
   const ExperimentComparison comparison = compare_experiments(load_results(a.a), load_results(a.b));
   std::cout << table_markdown(comparison_table(comparison)) << "\n";
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "overall       %+.2f %% (geometric mean of the changes of the medians), p %.4f, %zu runs\n",
-                100 * (comparison.ratio - 1), comparison.p, comparison.pairs);
-  std::cout << text;
+  std::cout << format_text("overall       %+.2f %% (geometric mean of the changes of the medians), p %.4f, %zu runs\n",
+                           100 * (comparison.ratio - 1), comparison.p, comparison.pairs);
   print_names(std::cout, "failed in B alone", comparison.newly_failed);
   print_names(std::cout, "failed in A alone", comparison.recovered);
   print_names(std::cerr, "warning: " + std::to_string(comparison.only_in_a.size()) + " runs have a result in A alone",
@@ -66,7 +64,7 @@ void compare(const CompareArguments& a, int& exit_code) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& experiment, int& exit_code) {
+void add_experiment_compare_command(CLI::App& experiment, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = experiment.add_subcommand("compare", "Say what got better or worse from experiment A to B");
   command->add_option("A", arguments->a, "Folder of an experiment, or its results.csv or results.json")->required();

@@ -1,4 +1,4 @@
-#include "commands/experiment/experiment_demo.h"
+#include "commands/experiment/experiment_commands.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 #include "commands/experiment/experiment_run.h"
 #include "experiment/jobs/job_folder.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "simulation/sequences/stand_ins.h"
 #include "terminal/interrupt.h"
@@ -29,14 +30,16 @@ struct DemoArguments {
 };
 
 /// Written last of all.
-fs::path mark_of(const fs::path& sequence) { return sequence / "world.yaml"; }
+constexpr const char* kMark = "world.yaml";
+
+fs::path mark_of(const fs::path& sequence) { return sequence / kMark; }
 
 /// Returns whether the sequence is complete: not if it was interrupted.
-bool render(const StandIn& stand_in, const fs::path& folder, ThreadPool& pool, bool quiet) {
-  fs::create_directories(folder);
+bool render(const StandIn& stand_in, const fs::path& folder, ThreadPool& pool, bool fresh, bool quiet) {
+  create_folder(folder);
   const std::optional<JobLock> lock = JobLock::try_acquire(folder);
   if (!lock) throw Error(folder.string(), "is being rendered by another process", "wait for it");
-  if (fs::exists(mark_of(folder))) return true;  // By another process meanwhile.
+  if (!fresh && fs::exists(mark_of(folder))) return true;  // By another process meanwhile.
   ProgressBar bar(quiet);
   const std::string name = stand_in.path.string();
   bar.message(LogLevel::kInfo, "rendering " + name);
@@ -48,7 +51,7 @@ bool render(const StandIn& stand_in, const fs::path& folder, ThreadPool& pool, b
   };
   const int frames = simulation::write_sequence(sequence, stand_in.recipe, folder, stand_in.write, pool, progress);
   if (frames == sequence.size()) return true;
-  fs::remove(mark_of(folder));
+  OutputFolder(folder).remove(kMark);
   return false;
 }
 
@@ -58,9 +61,8 @@ bool render_all(const fs::path& root, const DemoArguments& a) {
   for (const StandIn& stand_in :
        simulation::stand_ins(small ? simulation::StandInSize::kSmall : simulation::StandInSize::kFull)) {
     const fs::path folder = root / stand_in.path;
-    std::error_code error;
-    if (a.fresh) fs::remove(mark_of(folder), error);
-    if (!fs::exists(mark_of(folder)) && !render(stand_in, folder, pool, a.run.quiet)) return false;
+    const bool is_there = !a.fresh && fs::exists(mark_of(folder));
+    if (!is_there && !render(stand_in, folder, pool, a.fresh, a.run.quiet)) return false;
   }
   return true;
 }

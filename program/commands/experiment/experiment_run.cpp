@@ -8,22 +8,35 @@
 #include <utility>
 
 #include "commands/experiment/builtin_plans.h"
-#include "commands/experiment/experiment_progress.h"
-#include "commands/experiment/experiment_summarize.h"
+#include "commands/experiment/experiment_commands.h"
 #include "experiment/jobs/job_file.h"
 #include "experiment/jobs/job_folder.h"
 #include "experiment/jobs/job_runner.h"
 #include "experiment/jobs/run_file.h"
+#include "experiment/jobs/time_left.h"
 #include "experiment/results/experiment_listing.h"
 #include "io/text/nearest_name.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
-#include "output/run_files.h"
 #include "terminal/interrupt.h"
+#include "terminal/progress_bar.h"
 
 namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// "12/60 done, 2 running, 1 failed, 5 min left"
+std::string progress_text(const RunnerProgress& progress) {
+  const int done = progress.finished + progress.failed;
+  std::string text = std::to_string(done) + "/" + std::to_string(progress.count) + " done, " +
+                     std::to_string(progress.running) + " running";
+  if (progress.elsewhere > 0) text += ", " + std::to_string(progress.elsewhere) + " elsewhere";
+  text += ", " + std::to_string(progress.failed) + " failed";
+  if (progress.seconds_left && done < progress.count)
+    text += ", " + readable_duration(*progress.seconds_left) + " left";
+  return text;
+}
 
 /// This very program: while it runs, also if its file is replaced by a newer one, and so the same for all jobs.
 JobProgram this_program() {
@@ -58,7 +71,7 @@ void check_sequences(ExperimentPlan& plan, const ExperimentRunOptions& options) 
 bool is_to_be_printed(const fs::path& folder, bool retry_failed, int& busy) {
   const RunState state = read_run(folder).state;
   if (state == RunState::kFinished || (state == RunState::kFailed && !retry_failed)) return false;
-  make_output_folder(folder);
+  create_folder(folder);
   const std::optional<JobLock> lock = JobLock::try_acquire(folder);
   if (!lock) {
     ++busy;
@@ -89,7 +102,7 @@ void print_jobs(const std::vector<ExperimentJob>& jobs, const ExperimentRunOptio
 
 RunnerReport run_all(const std::vector<ExperimentJob>& jobs, const ExperimentPlan& plan,
                      const ExperimentRunOptions& options) {
-  ExperimentProgress display(options.quiet);
+  ProgressBar bar(options.quiet, 1);
   const InterruptGuard interrupt;
   RunnerOptions runner;
   runner.experiment = options.out;
@@ -97,8 +110,12 @@ RunnerReport run_all(const std::vector<ExperimentJob>& jobs, const ExperimentPla
   runner.parallel = jobs_at_a_time(plan, options);
   runner.retry_failed = options.retry_failed;
   runner.stop = &interrupt.flag();
-  runner.progress = [&](const RunnerProgress& progress) { display.update(progress); };
-  runner.failed = [&](const ExperimentJob& job, const std::string& reason) { display.failed(job, reason); };
+  runner.progress = [&](const RunnerProgress& progress) {
+    bar.update(progress.finished + progress.failed, progress.count, progress_text(progress));
+  };
+  runner.failed = [&](const ExperimentJob& job, const std::string& reason) {
+    bar.message(LogLevel::kInfo, job.id + ": failed: " + reason);
+  };
   return run_jobs(jobs, runner);
 }
 

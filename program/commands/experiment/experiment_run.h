@@ -30,6 +30,4 @@ int run_experiment(ExperimentPlan plan, const ExperimentRunOptions& options);
 /// -o, --jobs, ..
 void add_experiment_run_options(CLI::App& command, ExperimentRunOptions& options);
 
-void add_experiment_run_command(CLI::App& experiment, int& exit_code);
-
 }  // namespace ldso

@@ -1,4 +1,4 @@
-#include "commands/experiment/experiment_status.h"
+#include "commands/experiment/experiment_commands.h"
 
 #include <algorithm>
 #include <array>

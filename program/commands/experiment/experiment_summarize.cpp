@@ -1,4 +1,4 @@
-#include "commands/experiment/experiment_summarize.h"
+#include "commands/experiment/experiment_commands.h"
 
 #include <algorithm>
 #include <iostream>
@@ -49,7 +49,7 @@ void summarize(SummarizeArguments& a) {
 
 }  // namespace
 
-void add_summarize_command(CLI::App& experiment, int& /*exit_code*/) {
+void add_experiment_summarize_command(CLI::App& experiment) {
   auto arguments = std::make_shared<SummarizeArguments>();
   SummaryOptions& options = arguments->options;
   CLI::App* command =

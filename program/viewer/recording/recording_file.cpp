@@ -1,8 +1,8 @@
 #include "viewer/recording/recording_file.h"
 
 #include "io/images/image_file.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 

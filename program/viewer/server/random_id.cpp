@@ -3,10 +3,10 @@
 #include <sys/random.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 
@@ -19,10 +19,8 @@ std::uint64_t random_id() {
 }
 
 std::string make_token() {
-  char token[33];
-  std::snprintf(token, sizeof(token), "%016llx%016llx", static_cast<unsigned long long>(random_id()),
-                static_cast<unsigned long long>(random_id()));
-  return token;
+  return format_text("%016llx%016llx", static_cast<unsigned long long>(random_id()),
+                     static_cast<unsigned long long>(random_id()));
 }
 
 }  // namespace ldso

@@ -1,10 +1,10 @@
 #include "experiment/jobs/job_file.h"
 
 #include <nlohmann/json.hpp>
-#include <system_error>
 
-#include "io/text/text_file.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -46,10 +46,17 @@ JobMetric parse_job_metric(const std::string& name) {
 }
 
 void write_job(const fs::path& folder, const ExperimentJob& job) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error(folder.string(), "cannot be created (" + error.message() + ")", "check the permissions");
+  create_folder(folder);
   write_file(folder / kFileName, json_of(job).dump(2) + "\n");
+}
+
+bool has_job(const fs::path& folder) {
+  try {
+    read_job(folder);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 ExperimentJob read_job(const fs::path& folder) {

@@ -17,6 +17,9 @@ JobMetric parse_job_metric(const std::string& name);
 /// Throws ldso::Error if it cannot be written.
 void write_job(const std::filesystem::path& folder, const ExperimentJob& job);
 
+/// Whether read_job() can read one there.
+bool has_job(const std::filesystem::path& folder);
+
 /// Throws ldso::Error naming the file if there is none, it is damaged, or a member is missing or of another type.
 ExperimentJob read_job(const std::filesystem::path& folder);
 

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

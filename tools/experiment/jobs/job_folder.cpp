@@ -31,7 +31,7 @@ fs::path job_folder(const fs::path& experiment, const std::string& id) { return 
 
 std::string last_error(const fs::path& folder) {
   constexpr std::string_view kPrefix = "error: ";
-  std::ifstream file(folder / "log.txt");
+  std::ifstream file(folder / kLogName);
   std::string found;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with(kPrefix)) found = line.substr(kPrefix.size());

@@ -8,6 +8,9 @@
 
 namespace ldso {
 
+/// What a job has printed.
+inline constexpr const char* kLogName = "log.txt";
+
 /// The folder of a job below that of its experiment.
 std::filesystem::path job_folder(const std::filesystem::path& experiment, const std::string& id);
 

@@ -128,7 +128,7 @@ class JobRunner {
   void try_start(std::size_t job) {
     const fs::path folder = folder_of(job);
     if (has_ended(job)) return;
-    make_folder(folder);
+    create_folder(folder);
     std::optional<JobLock> lock = JobLock::try_acquire(folder);
     if (!lock) {
       elsewhere_.push_back(job);
@@ -137,15 +137,9 @@ class JobRunner {
     if (has_ended(job)) return;  // Between the look and the lock.
     clear_run(folder);
     write_job(folder, jobs_[job]);
-    JobProcess process(options_.program, jobs_[job].arguments, folder / "log.txt", lock->descriptor());
+    JobProcess process(options_.program, jobs_[job].arguments, folder / kLogName, lock->descriptor());
     running_.push_back({job, std::move(*lock), std::move(process), Clock::now()});
     ++report_.started;
-  }
-
-  static void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Error(folder.string(), "cannot be made (" + error.message() + ")", "check the permissions");
   }
 
   /// Until a job ends, a signal comes or the time is over.

@@ -16,6 +16,7 @@
 #include "experiment/jobs/run_file.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -4,8 +4,8 @@
 #include <system_error>
 #include <utility>
 
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -14,7 +14,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr const char* kRun = "run.json";
-constexpr const char* kFailure = "failure.json";
 
 /// Member of an object, at any depth ("/counts/frames"); null if there is none.
 Json at(const Json& json, const char* pointer) {
@@ -159,7 +158,7 @@ RunOutcome read_run(const fs::path& folder) {
   refresh(folder);
   RunOutcome outcome = read(folder / kRun, outcome_of);
   if (outcome.state != RunState::kPending) return outcome;
-  RunOutcome failure = read(folder / kFailure, failure_of);
+  RunOutcome failure = read(folder / kFailureName, failure_of);
   return failure.state == RunState::kFailed || outcome.reason.empty() ? failure : outcome;
 }
 
@@ -167,11 +166,15 @@ void write_failure(const fs::path& folder, const JobFailure& failure) {
   const nlohmann::ordered_json json{{"exit_code", failure.exit_code},
                                     {"signal", failure.signal ? Json(*failure.signal) : Json()},
                                     {"reason", failure.reason}};
-  write_file(folder / kFailure, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / kFailureName, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void clear_run(const fs::path& folder) {
-  for (const char* name : {kRun, kFailure}) fs::remove(folder / name);
+  for (const char* name : {kRun, kFailureName}) {
+    std::error_code error;
+    fs::remove(folder / name, error);
+    if (error) throw Error((folder / name).string(), "cannot be removed (" + error.message() + ")", "remove it");
+  }
 }
 
 }  // namespace ldso

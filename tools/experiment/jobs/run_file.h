@@ -29,6 +29,8 @@ struct RunOutcome {
 /// Never throws for what lies in the folder: a file that is damaged leaves the job pending, with a reason.
 RunOutcome read_run(const std::filesystem::path& folder);
 
+inline constexpr const char* kFailureName = "failure.json";
+
 /// How `ldso run` ended without a result.
 struct JobFailure {
   int exit_code = 0;  ///< As shells have it: 128 + signal after a signal.
@@ -39,7 +41,7 @@ struct JobFailure {
 /// Writes failure.json. Throws Error if that fails.
 void write_failure(const std::filesystem::path& folder, const JobFailure& failure);
 
-/// Removes what read_run() goes by, so that the job is pending.
+/// Removes what read_run() goes by, so that the job is pending. Throws Error if that fails.
 void clear_run(const std::filesystem::path& folder);
 
 }  // namespace ldso

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/test_results.h"
-#include "io/text/text_file.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -7,9 +7,9 @@
 #include "experiment/jobs/job_file.h"
 #include "experiment/plan/plan_yaml.h"
 #include "io/text/nearest_name.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/settings_file.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

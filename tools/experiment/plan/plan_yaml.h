@@ -20,7 +20,6 @@ class PlanNode {
   static PlanNode parse(const std::string& text, const std::string& origin);
 
   bool is_map() const { return node_.IsMap(); }
-  bool is_list() const { return node_.IsSequence(); }
   const std::string& name() const { return name_; }
 
   // Throw Error if the value is of another kind.

@@ -1,10 +1,12 @@
 #include "experiment/results/experiment_listing.h"
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 
-#include "io/text/text_file.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -13,18 +15,16 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFileName = "experiment.json";
+constexpr std::string_view kBeginning = "{\n  \"title\":";
 
 }  // namespace
 
 void write_listing(const fs::path& experiment, const ExperimentListing& listing) {
-  std::error_code error;
-  fs::create_directories(experiment, error);
-  if (error) {
-    throw Error(experiment.string(), "cannot be made (" + error.message() + ")",
-                "give a folder that can be written by -o");
-  }
+  const fs::path file = experiment / kFileName;
+  refuse_other_file(file, {kBeginning}, "the list of an experiment");
+  create_folder(experiment);
   const Json json{{"title", listing.title}, {"jobs", listing.jobs}};
-  write_file(experiment / kFileName, json.dump(2) + "\n");
+  write_file(file, json.dump(2) + "\n");
 }
 
 ExperimentListing read_listing(const fs::path& experiment) {

@@ -11,6 +11,7 @@
 #include "experiment/results/csv.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

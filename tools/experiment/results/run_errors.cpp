@@ -8,9 +8,9 @@
 #include "evaluation/trajectory_evaluation.h"
 #include "evaluation/trajectory_source.h"
 #include "experiment/jobs/job_file.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/dataset.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

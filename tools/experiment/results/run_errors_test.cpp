@@ -4,8 +4,8 @@
 
 #include "evaluation/test_trajectories.h"
 #include "experiment/test_results.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "evaluation/svg_chart.h"
 #include "experiment/summary/colour_scale.h"
 #include "experiment/summary/text_table.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -76,22 +76,19 @@ Layout layout_of(const DatasetResults& dataset, const std::vector<RowGroup>& gro
 }
 
 std::string rectangle(const SvgBox& box, const std::string& fill, const std::string& title) {
-  char text[192];
-  std::snprintf(text, sizeof(text), "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"", box.x,
-                box.y, box.width, box.height, fill.c_str());
+  const std::string text = format_text("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"", box.x,
+                                       box.y, box.width, box.height, fill.c_str());
   return std::string(text) + " stroke=\"#c8c8c8\" stroke-width=\"0.5\">" +
          (title.empty() ? "" : "<title>" + xml_escape(title) + "</title>") + "</rect>\n";
 }
 
 std::string cross(const SvgBox& box) {
   const double inset = 0.2 * std::min(box.width, box.height);
-  char text[256];
-  std::snprintf(text, sizeof(text),
-                "<path d=\"M%.1f %.1fL%.1f %.1fM%.1f %.1fL%.1f %.1f\" stroke=\"%s\" stroke-width=\"1.8\" "
-                "pointer-events=\"none\"/>\n",
-                box.x + inset, box.y + inset, box.x + box.width - inset, box.y + box.height - inset, box.x + inset,
-                box.y + box.height - inset, box.x + box.width - inset, box.y + inset, kFailedColour);
-  return text;
+  return format_text(
+      "<path d=\"M%.1f %.1fL%.1f %.1fM%.1f %.1fL%.1f %.1f\" stroke=\"%s\" stroke-width=\"1.8\" "
+      "pointer-events=\"none\"/>\n",
+      box.x + inset, box.y + inset, box.x + box.width - inset, box.y + box.height - inset, box.x + inset,
+      box.y + box.height - inset, box.x + box.width - inset, box.y + inset, kFailedColour);
 }
 
 std::string question_mark(const SvgBox& box) {
@@ -152,8 +149,7 @@ std::string draw_column_labels(const DatasetResults& dataset, const Layout& layo
   for (std::size_t column = 0; column < dataset.sequences.size(); ++column) {
     const double x = layout.left + (static_cast<double>(column) + 0.5) * layout.cell_width;
     if (layout.upright) {
-      char turn[96];
-      std::snprintf(turn, sizeof(turn), "transform=\"rotate(-90 %.1f %.1f)\"", x + 4, top + 6);
+      const std::string turn = format_text("transform=\"rotate(-90 %.1f %.1f)\"", x + 4, top + 6);
       svg += svg_text(x + 4, top + 6, dataset.sequences[column], 12, "end", turn);
     } else {
       svg += svg_text(x, top + 17, dataset.sequences[column], 12, "middle");

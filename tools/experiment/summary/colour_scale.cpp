@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "util/format_text.h"
+
 namespace ldso {
 namespace {
 
@@ -38,13 +40,11 @@ std::string viridis(double value) {
   const double at = std::clamp(value, 0.0, 1.0) * static_cast<double>(kViridis.size() - 1);
   const std::size_t left = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
   const double t = at - static_cast<double>(left);
-  char text[8];
   std::array<int, 3> rgb{};
   for (std::size_t c = 0; c < 3; ++c) {
     rgb[c] = static_cast<int>(std::lround((1 - t) * kViridis[left][c] + t * kViridis[left + 1][c]));
   }
-  std::snprintf(text, sizeof(text), "#%02x%02x%02x", rgb[0] & 0xff, rgb[1] & 0xff, rgb[2] & 0xff);
-  return text;
+  return format_text("#%02x%02x%02x", rgb[0] & 0xff, rgb[1] & 0xff, rgb[2] & 0xff);
 }
 
 ErrorColours::ErrorColours(std::vector<double> errors) {
@@ -66,21 +66,18 @@ std::string ErrorColours::legend(const SvgBox& box, const std::string& label) co
   constexpr int kSteps = 64;
   constexpr double kTextSize = 12;
   std::string svg;
-  char text[256];
   for (int i = 0; i < kSteps; ++i) {
     // Each step reaches a little under the next, so that no seam shows.
     const double top = box.y + box.height * (kSteps - 1 - i) / kSteps;
-    std::snprintf(text, sizeof(text), "<rect x=\"%.1f\" y=\"%.2f\" width=\"%.1f\" height=\"%.2f\" fill=\"%s\"/>\n",
-                  box.x, top, box.width, box.height / kSteps + (i > 0 ? 0.6 : 0.0),
-                  viridis((i + 0.5) / kSteps).c_str());
-    svg += text;
+    svg += format_text("<rect x=\"%.1f\" y=\"%.2f\" width=\"%.1f\" height=\"%.2f\" fill=\"%s\"/>\n", box.x, top,
+                       box.width, box.height / kSteps + (i > 0 ? 0.6 : 0.0), viridis((i + 0.5) / kSteps).c_str());
   }
   const Range exponents{std::log10(low_), std::log10(high_)};
   for (const Tick& tick : log_ticks(exponents)) {
     const double y = box.y + box.height * (exponents.max - tick.position) / exponents.length();
-    std::snprintf(text, sizeof(text), "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#222222\"/>\n",
-                  box.x + box.width, y, box.x + box.width + 5, y);
-    svg += text + svg_text(box.x + box.width + 9, y + 4, tick.label, kTextSize);
+    svg += format_text("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#222222\"/>\n",
+                       box.x + box.width, y, box.x + box.width + 5, y);
+    svg += svg_text(box.x + box.width + 9, y + 4, tick.label, kTextSize);
   }
   return svg + svg_text(box.x, box.y - 10, label, kTextSize + 1, "start", "font-weight=\"bold\"");
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <set>
@@ -11,10 +10,13 @@
 
 #include "experiment/results/signed_rank.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "util/median.h"
 
 namespace ldso {
 namespace {
+
+constexpr double kSignificance = 0.05;
 
 constexpr double kSameRatio = 1.01;  ///< Smaller differences are called the same.
 
@@ -99,11 +101,7 @@ void compare_overall(const std::map<Group, std::vector<ErrorPair>>& groups, Expe
   comparison.p = signed_rank_test(ratios).p;
 }
 
-std::string percent(double ratio) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%+.1f %%", 100 * (ratio - 1));
-  return text;
-}
+std::string percent(double ratio) { return format_text("%+.1f %%", 100 * (ratio - 1)); }
 
 std::string verdict(const SequenceComparison& sequence) {
   const bool a_failed = std::isinf(sequence.median_a), b_failed = std::isinf(sequence.median_b);
@@ -113,14 +111,10 @@ std::string verdict(const SequenceComparison& sequence) {
   const bool is_worse = b_failed || (!a_failed && ratio > kSameRatio);
   const bool is_better = a_failed || ratio < 1 / kSameRatio;
   if (!is_worse && !is_better) return "same";
-  return std::string(is_worse ? "worse" : "better") + (sequence.p < 0.05 ? " (p < 0.05)" : "");
+  return std::string(is_worse ? "worse" : "better") + (sequence.p < kSignificance ? " (p < 0.05)" : "");
 }
 
-std::string p_text(double p) {
-  char text[64];
-  std::snprintf(text, sizeof(text), p < 0.0001 ? "%.1e" : "%.4f", p);
-  return text;
-}
+std::string p_text(double p) { return format_text(p < 0.0001 ? "%.1e" : "%.4f", p); }
 
 std::string count_text(std::size_t a, std::size_t b) { return std::to_string(a) + " -> " + std::to_string(b); }
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <string_view>
 
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 

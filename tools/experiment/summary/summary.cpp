@@ -9,19 +9,36 @@
 #include "experiment/summary/result_figures.h"
 #include "experiment/summary/result_tables.h"
 #include "experiment/summary/summary_page.h"
-#include "io/text/text_file.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "util/thread_pool.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
 
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error(folder.string(), "cannot be created (" + error.message() + ")", "give another folder by -o");
+constexpr const char* kFigureFolder = "figures/";
+constexpr const char* kTableFolder = "tables/";
+
+/// Whether there is a summary of a version that kept no list of its files.
+bool has_summary(const fs::path& folder) {
+  try {
+    read_results(folder / "results.csv");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+OutputFolder open_summary_folder(const fs::path& folder) {
+  const std::vector<std::string> names{"results.csv", "results.json", "summary.md",
+                                       "index.html",  kFigureFolder,  kTableFolder};
+  OutputFolder out(folder);
+  if (!out.has_list() && has_summary(folder)) out.adopt(names);
+  out.check(names);
+  return out;
 }
 
 void count_states(const std::vector<JobResult>& jobs, SummaryReport& report) {
@@ -97,7 +114,7 @@ std::vector<FigureLink> write_figures(const SummaryOptions& options, const std::
   ThreadPool pool(options.threads);
   pool.run(static_cast<int>(figures.size()), [&](int index) {
     const auto i = static_cast<std::size_t>(index);
-    links[i] = {"figures/" + figures[i].name, figures[i].caption, false};
+    links[i] = {kFigureFolder + figures[i].name, figures[i].caption, false};
     const fs::path svg = options.output / (links[i].file + ".svg"), png = options.output / (links[i].file + ".png");
     write_file(svg, figures[i].svg);
     std::error_code ignored;
@@ -107,12 +124,13 @@ std::vector<FigureLink> write_figures(const SummaryOptions& options, const std::
   return links;
 }
 
-SummaryPage write_sections(const SummaryOptions& options, const std::vector<Section>& sections, SummaryReport& report) {
-  create_folder(options.output / "figures");
-  create_folder(options.output / "tables");
+SummaryPage write_sections(const SummaryOptions& options, const std::vector<Section>& sections, OutputFolder& out,
+                           SummaryReport& report) {
+  create_folder(out.file(kFigureFolder));
+  create_folder(out.file(kTableFolder));
   SummaryPage page;
   for (const Section& section : sections) {
-    for (const TextTable& table : section.tables) write_table(options.output / "tables", table);
+    for (const TextTable& table : section.tables) write_table(out.path() / kTableFolder, table);
     page.sections.push_back({section.title, section.tables, write_figures(options, section.figures)});
     report.tables += section.tables.size();
     report.figures += section.figures.size();
@@ -161,15 +179,16 @@ SummaryReport write_summary(const SummaryOptions& options) {
   report.warnings = std::move(results.warnings);
   count_states(results.jobs, report);
   const std::vector<Section> sections = sections_of(options, results.jobs, report);
-  SummaryPage page = write_sections(options, sections, report);
+  OutputFolder out = open_summary_folder(options.output);
+  SummaryPage page = write_sections(options, sections, out, report);
   page.title = "Experiment " + fs::absolute(options.experiment).lexically_normal().filename().string();
   page.lines = {state_line(report),
                 "all figures of each run: results.csv, results.json; tables as CSV, Markdown and LaTeX: tables/"};
   page.warnings = report.warnings;
-  write_file(options.output / "results.csv", results_csv(results.jobs));
-  write_file(options.output / "results.json", results_json(results.jobs));
-  write_file(options.output / "summary.md", summary_markdown(page));
-  write_file(options.output / "index.html", summary_html(page));
+  write_file(out.file("results.csv"), results_csv(results.jobs));
+  write_file(out.file("results.json"), results_json(results.jobs));
+  write_file(out.file("summary.md"), summary_markdown(page));
+  write_file(out.file("index.html"), summary_html(page));
   return report;
 }
 

@@ -4,8 +4,8 @@
 #include "experiment/results/experiment_results.h"
 #include "experiment/results/results_file.h"
 #include "experiment/test_results.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "experiment/results/csv.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -130,15 +131,10 @@ std::string table_latex(const TextTable& table) {
 std::string table_number(const std::optional<double>& value) {
   if (!value || std::isnan(*value)) return "-";
   if (std::isinf(*value)) return "failed";
-  char text[64];
   const double size = std::abs(*value);
-  if (size != 0 && (size < 1e-4 || size >= 1e6)) {
-    std::snprintf(text, sizeof(text), "%.3e", *value);
-  } else {
-    const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
-    std::snprintf(text, sizeof(text), "%.*f", std::clamp(4 - digits, 0, 7), *value);
-  }
-  return text;
+  if (size != 0 && (size < 1e-4 || size >= 1e6)) return format_text("%.3e", *value);
+  const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
+  return format_text("%.*f", std::clamp(4 - digits, 0, 7), *value);
 }
 
 }  // namespace ldso

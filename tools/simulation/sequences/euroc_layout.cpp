@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <string>
 
+#include "io/text/output_folder.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {
@@ -85,7 +87,7 @@ class EurocLayout final : public SequenceLayout {
   std::string frame_name(const SimulatedSequence& sequence, int index) const override {
     return std::to_string(nanoseconds(sequence.timestamp(index)));
   }
-  void remove_leftovers(const fs::path& /*folder*/) const override {}
+  std::vector<std::string> names(const fs::path& /*folder*/) const override { return {"mav0/"}; }
 
   void write(const fs::path& folder, const SimulatedSequence& sequence, const SequenceRecipe& /*recipe*/,
              int frames) const override {
@@ -97,7 +99,7 @@ class EurocLayout final : public SequenceLayout {
     }
     write_file(mav / "cam0" / "data.csv", data);
     write_file(mav / "cam0" / "sensor.yaml", sensor_text(sequence));
-    fs::create_directories(mav / "state_groundtruth_estimate0");
+    create_folder(mav / "state_groundtruth_estimate0");
     write_file(mav / "state_groundtruth_estimate0" / "data.csv", truth_text(sequence, frames));
   }
 };

@@ -1,20 +1,16 @@
 #include <string>
 
+#include "io/text/output_folder.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/trajectory_file.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Without a last "/" and links, as the reader sees it.
-fs::path sequence_place(const fs::path& folder) {
-  const fs::path path = fs::weakly_canonical(fs::absolute(folder));
-  return path.has_filename() ? path : path.parent_path();
-}
 
 std::string calibration_text(const CameraCalibration& camera) {
   std::ostringstream out = number_stream();
@@ -27,14 +23,16 @@ class KittiLayout final : public SequenceLayout {
   void check(const SimulatedSequence& sequence, const fs::path& folder) const override {
     if (sequence.calibration().camera.model != CameraModelKind::kPinhole)
       throw Error("KITTI layout", "its images are those of a pinhole camera", "choose --lens pinhole");
-    if (sequence_place(folder).parent_path().filename() != "sequences") {
+    if (real_path(folder).parent_path().filename() != "sequences") {
       throw Error(folder.string(), "is no place for a sequence of KITTI: the poses lie in ../../poses",
                   "give -o ROOT/sequences/NAME");
     }
   }
   fs::path image_folder() const override { return "image_0"; }
   std::string frame_name(const SimulatedSequence& /*sequence*/, int index) const override { return numbered(index, 6); }
-  void remove_leftovers(const fs::path& /*folder*/) const override {}
+  std::vector<std::string> names(const fs::path& folder) const override {
+    return {"image_0/", "calib.txt", "times.txt", "../../poses/" + real_path(folder).filename().string() + ".txt"};
+  }
 
   void write(const fs::path& folder, const SimulatedSequence& sequence, const SequenceRecipe& /*recipe*/,
              int frames) const override {
@@ -47,8 +45,8 @@ class KittiLayout final : public SequenceLayout {
     }
     write_file(folder / "calib.txt", calibration_text(sequence.calibration().camera));
     write_file(folder / "times.txt", times.str());
-    const fs::path path = sequence_place(folder), poses = path.parent_path().parent_path() / "poses";
-    fs::create_directories(poses);
+    const fs::path path = real_path(folder), poses = path.parent_path().parent_path() / "poses";
+    create_folder(poses);
     write_kitti_poses(poses / (path.filename().string() + ".txt"), relative);
   }
 };

@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "simulation/sequences/sequence_recipe.h"
 
@@ -22,8 +23,8 @@ class SequenceLayout {
   virtual std::filesystem::path image_folder() const = 0;
   /// Digits, at least five; without extension.
   virtual std::string frame_name(const SimulatedSequence& sequence, int index) const = 0;
-  /// Removes what a longer or another sequence before may have left and write() does not replace.
-  virtual void remove_leftovers(const std::filesystem::path& folder) const = 0;
+  /// All that may be written into the folder or beside it, relative to it; folders end in "/".
+  virtual std::vector<std::string> names(const std::filesystem::path& folder) const = 0;
   /// Everything but images, for the first `frames` frames.
   virtual void write(const std::filesystem::path& folder, const SimulatedSequence& sequence,
                      const SequenceRecipe& recipe, int frames) const = 0;

@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 #include "io/images/image_file.h"
-#include "io/text/text_file.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {
@@ -20,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDescription = "world.yaml";
+constexpr const char* kDescriptionBeginning = "world: ";
+constexpr const char* kDepthFolder = "depth/";
 
 template <class Value>
 void entry(YAML::Emitter& out, const char* key, const Value& value) {
@@ -78,12 +82,21 @@ void write_depth(const fs::path& path, const Image<float>& depth, double unit) {
 /// Names of the frames that a folder contains.
 std::vector<std::string> frame_files(const fs::path& folder) {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string stem = entry.path().stem().string();
     const bool digits = stem.size() >= 5 && stem.find_first_not_of("0123456789") == std::string::npos;
     if (digits && entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
   }
   return names;
+}
+
+void remove_frames(const fs::path& folder) {
+  std::error_code error;
+  for (const std::string& name : frame_files(folder)) {
+    if (!fs::remove(folder / name, error) && error)
+      throw Error((folder / name).string(), "cannot be removed (" + error.message() + ")", "remove it");
+  }
 }
 
 [[noreturn]] void fail(zip_t* archive, const fs::path& path) {
@@ -96,7 +109,6 @@ std::vector<std::string> frame_files(const fs::path& folder) {
 void pack(const fs::path& images, const fs::path& archive_path) {
   std::vector<std::string> names = frame_files(images);
   std::sort(names.begin(), names.end());
-  fs::remove(archive_path);
   zip_t* archive = zip_open(archive_path.string().c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
   if (archive == nullptr) fail(nullptr, archive_path);
   for (const std::string& name : names) {
@@ -107,23 +119,35 @@ void pack(const fs::path& images, const fs::path& archive_path) {
       fail(archive, archive_path);
   }
   if (zip_close(archive) < 0) fail(archive, archive_path);
-  for (const std::string& name : names) fs::remove(images / name);
-  if (fs::is_empty(images)) fs::remove(images);
+  remove_frames(images);
 }
 
-/// An empty folder of frames: what an earlier run left there (files named by digits) is removed.
-void make_frame_folder(const fs::path& folder) {
+/// The folder of a sequence, whose files may all be written: those of an earlier one are removed, but for the frames.
+OutputFolder open_sequence_folder(const fs::path& folder, const SequenceLayout& layout) {
+  OutputFolder out(folder);
+  std::vector<std::string> names = layout.names(folder);
+  names.insert(names.end(), {kDepthFolder, kDescription});
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error(folder.string(), "cannot be made (" + error.message() + ")", "choose another folder");
-  for (const std::string& name : frame_files(folder)) fs::remove(folder / name);
+  if (!out.has_list() && fs::exists(folder / kDescription, error)) {
+    refuse_other_file(folder / kDescription, {kDescriptionBeginning}, "the description of a rendered sequence");
+    out.adopt(names);
+  }
+  out.check(names);
+  for (const std::string& name : names) out.remove(name);
+  for (const std::string& name : layout.names(folder)) out.file(name);
+  return out;
 }
 
-void remove_depth(const fs::path& folder) {
-  const fs::path depth = folder / "depth";
-  if (!fs::is_directory(depth)) return;
-  for (const std::string& name : frame_files(depth)) fs::remove(depth / name);
-  if (fs::is_empty(depth)) fs::remove(depth);
+/// An empty folder of frames.
+void make_frame_folder(const fs::path& folder) {
+  create_folder(folder);
+  remove_frames(folder);
+}
+
+/// Without depth maps there are none of an earlier sequence either.
+void prepare_depth(OutputFolder& out, bool is_wanted) {
+  if (is_wanted || out.owns(kDepthFolder)) make_frame_folder(out.file(kDepthFolder));
+  if (!is_wanted) out.remove(kDepthFolder);
 }
 
 std::unique_ptr<SequenceLayout> layout_of(const WriteOptions& options) {
@@ -151,12 +175,10 @@ int write_sequence(const SimulatedSequence& sequence, const SequenceRecipe& reci
                    const WriteOptions& options, ThreadPool& pool, const std::function<bool(int)>& progress) {
   const std::unique_ptr<SequenceLayout> layout = layout_of(options);
   layout->check(sequence, folder);
-  const fs::path images = folder / layout->image_folder(), depth = folder / "depth";
+  const fs::path images = folder / layout->image_folder(), depth = folder / kDepthFolder;
+  OutputFolder out = open_sequence_folder(folder, *layout);
   make_frame_folder(images);
-  layout->remove_leftovers(folder);
-  fs::remove(folder / kDescription);
-  remove_depth(folder);
-  if (options.depth) make_frame_folder(depth);
+  prepare_depth(out, options.depth);
   // Whole frames in parallel: no thread waits for another within a frame.
   int done = 0;
   bool go_on = true;
@@ -173,9 +195,12 @@ int write_sequence(const SimulatedSequence& sequence, const SequenceRecipe& reci
     done += count;
     if (progress) go_on = progress(done);
   }
-  if (options.zip) pack(images, folder / "images.zip");
+  if (options.zip) {
+    pack(images, folder / "images.zip");
+    out.remove("images/");
+  }
   layout->write(folder, sequence, recipe, done);
-  write_description(folder / kDescription, sequence, recipe, done);
+  write_description(out.file(kDescription), sequence, recipe, done);
   return done;
 }
 

@@ -7,6 +7,7 @@
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/trajectory_file.h"
 #include "simulation/sequences/sequence_layout.h"
+#include "util/whole_file.h"
 
 namespace ldso::simulation {
 namespace {
@@ -61,9 +62,9 @@ class TumMonoLayout final : public SequenceLayout {
   void check(const SimulatedSequence& /*sequence*/, const fs::path& /*folder*/) const override {}
   fs::path image_folder() const override { return "images"; }
   std::string frame_name(const SimulatedSequence& /*sequence*/, int index) const override { return numbered(index, 5); }
-  void remove_leftovers(const fs::path& folder) const override {
-    for (const char* name : {"images.zip", "pcalib.txt", "vignette.png", "groundtruth.txt", "groundtruthSync.txt"})
-      fs::remove(folder / name);
+  std::vector<std::string> names(const fs::path& /*folder*/) const override {
+    return {"images/",    "images.zip",   "camera.txt",      "times.txt",
+            "pcalib.txt", "vignette.png", "groundtruth.txt", "groundtruthSync.txt"};
   }
 
   void write(const fs::path& folder, const SimulatedSequence& sequence, const SequenceRecipe& recipe,

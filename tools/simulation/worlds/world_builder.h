@@ -52,7 +52,6 @@ class WorldBuilder {
   /// Reserves a texture that is painted by finish(). Sizes in metres.
   int paint(double width, double height, double texel, std::function<void(Canvas&)> painter);
   int foliage() const { return foliage_; }
-  std::uint64_t next_seed() { return random_.bits(); }
   double texel_scale() const { return texel_scale_; }
 
   void quad(const Eigen::Vector3d& origin, const Eigen::Vector3d& edge_u, const Eigen::Vector3d& edge_v,
