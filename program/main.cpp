@@ -11,6 +11,7 @@
 #include "commands/experiment/experiment.h"
 #include "commands/export.h"
 #include "commands/run.h"
+#include "commands/settings.h"
 #include "commands/view.h"
 #include "commands/vocab.h"
 #include "results/versions.h"
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   ldso::add_export_command(app);
   ldso::add_eval_command(app);
   ldso::add_vocab_command(app);
+  ldso::add_settings_command(app);
 #ifdef LDSO_HAS_SIMULATE
   ldso::add_simulate_command(app);
 #endif
