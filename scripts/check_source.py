@@ -75,7 +75,7 @@ ROOMS = {
 LIBRARIES = {
     r"opencv2/": {"io", "camera", "place", ""},
     r"zip\.h": {"io", "simulation"},
-    r"yaml-cpp/": {"io", "experiment", "simulation"},
+    r"yaml-cpp/": {"io", "simulation"},
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
     r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},

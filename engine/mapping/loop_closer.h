@@ -11,6 +11,7 @@
 
 #include "image/frame.h"
 #include "ldso/calibration.h"
+#include "ldso/loop_settings.h"
 #include "ldso/records.h"
 #include "ldso/sim3.h"
 #include "mapping/graph/drift_model.h"
@@ -25,25 +26,9 @@
 
 namespace ldso {
 
-struct LoopCloserSettings {
-  LoopDetectorSettings detection;
-  LoopVerifierSettings verification;
-  LoopSharpenerSettings sharpening;
-  PoseGraphSettings graph;
-  double max_drift = 0.15;           ///< Distance of a loop from the odometry, of the way between both, and
-  double max_drift_deg = 30;         ///< its rotation, that drift can explain.
-  double max_drift_log_scale = 1.5;  ///< And its scale.
-  int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
-  double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
-  int spacing = 2;                   ///< Keyframes from one closed loop to the next, at least.
-  int graph_spacing = 60;            ///< Keyframes from one optimization of the graph to the next, at least.
-  double graph_chi2 = 50;            ///< Squared distance of a new loop from the poses that calls for one.
-  int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
-};
-
 class LoopCloser {
  public:
-  explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings = {});
+  explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopSettings& settings = {});
 
   /// A keyframe that left the window, in the order in which they do, with its image and the camera as estimated then.
   void add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
@@ -104,7 +89,7 @@ class LoopCloser {
   void optimize();
 
   std::shared_ptr<const Vocabulary> vocabulary_;
-  LoopCloserSettings settings_;
+  LoopSettings settings_;
   KeyframeMap map_;
   LoopDetector detector_;
   PoseGraph odometry_graph_;      ///< Without loops.

@@ -56,7 +56,8 @@ class LoopThread {
   void publish(const Sim3d& correction);
 
   LogSink log_;
-  LoopCloserSettings settings_;
+  LoopSettings settings_;
+  std::size_t correction_lag_, max_waiting_;      ///< [keyframes]
   std::shared_ptr<const Vocabulary> vocabulary_;  ///< None: the built-in one.
   BoundedQueue<Item> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.

@@ -91,7 +91,7 @@ std::vector<FinishedKeyframe> there_and_back() {
   return keyframes;
 }
 
-/// The same for both.
+/// Of the thread and of the closer that it is compared with.
 LoopSettings loop_settings() {
   LoopSettings s;
   s.max_candidates = 2;
@@ -101,19 +101,6 @@ LoopSettings loop_settings() {
   s.min_seen_share = 0.2;
   s.min_covered_cells = 0.15;
   s.max_drift = 0.2;
-  return s;
-}
-
-LoopCloserSettings closer_settings() {
-  const LoopSettings given = loop_settings();
-  LoopCloserSettings s;
-  s.detection.max_candidates = given.max_candidates;
-  s.spacing = given.spacing;
-  s.verification.min_inliers = given.min_inliers;
-  s.verification.min_depth_inliers = given.min_depth_inliers;
-  s.verification.min_seen_share = given.min_seen_share;
-  s.verification.min_covered_cells = given.min_covered_cells;
-  s.max_drift = given.max_drift;
   return s;
 }
 
@@ -130,7 +117,7 @@ std::vector<FinishedKeyframe> LoopThreadTest::keyframes_;
 TEST_F(LoopThreadTest, GivesWhatLoopCloserGives) {
   std::vector<std::string> log;
   LoopThread thread(loop_settings(), [&](LogLevel, const std::string& message) { log.push_back(message); });
-  LoopCloser closer(std::make_shared<const Vocabulary>(default_vocabulary()), closer_settings());
+  LoopCloser closer(std::make_shared<const Vocabulary>(default_vocabulary()), loop_settings());
   for (const FinishedKeyframe& keyframe : keyframes_) {
     thread.add(keyframe, camera());
     closer.add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), camera());

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "odometry/selection/hash_random.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
@@ -16,7 +16,7 @@ const int kWidths[] = {1, 2, 3, 5, 7, 8, 15, 16, 17, 20, 21, 33, 63, 64, 65, 641
 
 // Coarse values, so that equal neighbours and values equal to thresholds occur.
 float random_value(std::uint64_t seed, int i, double low, double high) {
-  return static_cast<float>(low + std::floor(4 * (high - low) * unit_interval(hash_random(seed, i))) / 4);
+  return static_cast<float>(low + std::floor(4 * (high - low) * unit_interval(hash_of(i, seed))) / 4);
 }
 
 std::vector<float> random_row(int count, std::uint64_t seed, double low, double high) {
@@ -31,7 +31,7 @@ std::vector<float> random_texels(int count, std::uint64_t seed, double share_inv
     texels[4 * i] = random_value(seed, 4 * i, 0, 255);
     texels[4 * i + 1] = random_value(seed, 4 * i + 1, -60, 60) * 0.37f;
     texels[4 * i + 2] = random_value(seed, 4 * i + 2, -60, 60) * 0.41f;
-    texels[4 * i + 3] = unit_interval(hash_random(seed, 4 * i + 3)) < share_invalid ? 0.0f : 1.0f;
+    texels[4 * i + 3] = unit_interval(hash_of(4 * i + 3, seed)) < share_invalid ? 0.0f : 1.0f;
   }
   return texels;
 }
