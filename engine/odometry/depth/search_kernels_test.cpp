@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "odometry/state/robust_weight.h"
 #include "odometry/test_forced_target.h"
 #include "odometry/test_synthetic_scene.h"
 
