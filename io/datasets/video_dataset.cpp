@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 #include <set>
 #include <system_error>
@@ -57,11 +56,8 @@ class VideoReader {
  private:
   void reopen() {
     next_ = 0;
-    // OpenCV tries one library after the other and prints what each of them says.
-    const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const bool opened = std::any_of(kFileBackends.begin(), kFileBackends.end(),
                                     [this](int backend) { return capture_.open(path_.string(), backend); });
-    cv::utils::logging::setLogLevel(level);
     if (opened) return;
     throw Error(path_.string(), "the video cannot be opened", "convert it, to H.264 in an .mp4 file for instance");
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <mutex>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
@@ -18,14 +17,7 @@ namespace {
 constexpr float k16BitPerGreyLevel = 257.0F;  // 65535 / 255
 constexpr float kLeastVignette = 1e-3F;
 
-/// This program has its own threads; OpenCV's pool would only compete with them.
-void keep_opencv_to_one_thread() {
-  static std::once_flag once;
-  std::call_once(once, [] { cv::setNumThreads(1); });
-}
-
 cv::Mat decode(std::span<const std::uint8_t> bytes, const std::string& name) {
-  keep_opencv_to_one_thread();
   if (bytes.empty()) throw Error(name, "the image file is empty", "replace or remove it");
   if (is_truncated_image(bytes)) throw Error(name, "the image file is truncated", "copy it again or remove it");
   cv::Mat decoded;
@@ -73,7 +65,6 @@ cv::Mat from_rgb(ImageView<const Rgb> image) {
 }
 
 void encode_png(const std::filesystem::path& path, const cv::Mat& image) {
-  keep_opencv_to_one_thread();
   std::vector<std::uint8_t> bytes;
   try {
     // Level 1 is several times faster than the default and little larger.

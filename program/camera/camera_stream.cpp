@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 #include <vector>
 
@@ -83,8 +82,6 @@ class CameraStream final : public FrameStream {
 
  private:
   void open(const std::string& camera) {
-    // OpenCV prints what each of its libraries says.
-    const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     if (is_number(camera)) {
       capture_.open(std::stoi(camera), cv::CAP_V4L2);
     } else if (is_device_) {
@@ -93,7 +90,6 @@ class CameraStream final : public FrameStream {
       capture_.open(camera, cv::CAP_FFMPEG);
       if (!capture_.isOpened()) capture_.open(camera, cv::CAP_OPENCV_MJPEG);
     }
-    cv::utils::logging::setLogLevel(level);
     if (capture_.isOpened()) return;
     if (is_device_) {
       throw Error(name_, "there is no such camera, or it cannot be opened",

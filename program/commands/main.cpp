@@ -7,6 +7,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "camera/opencv_process.h"
 #include "commands/eval.h"
 #include "commands/experiment/experiment.h"
 #include "commands/export.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
 #ifdef __linux__
   prctl(PR_SET_NAME, "ldso");  // Jobs of experiments are started as /proc/self/exe and would be called "exe".
 #endif
+  ldso::set_up_opencv();
   CLI::App app("Monocular direct visual SLAM: images to a camera trajectory and a sparse map", "ldso");
   app.set_version_flag("--version", "ldso " + ldso::project_version() + " (" + ldso::compiler_version() + ")");
   app.require_subcommand(1);
