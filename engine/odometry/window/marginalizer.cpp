@@ -72,11 +72,7 @@ std::vector<FinishedKeyframe> Marginalizer::remove_keyframes(Window& window) {
       ++i;
       continue;
     }
-    for (auto& keyframe : window.keyframes) {
-      for (ActivePoint& point : keyframe->points) {
-        std::erase_if(point.residuals, [&](const PointResidual& r) { return r.target == leaving; });
-      }
-    }
+    window.forget(*leaving);
     window.prior.marginalize(Window::offset(i), kFrameDof, leaving->prior,
                              -leaving->prior.cwiseProduct(leaving->prior_mean));
     if (known.H.rows() == window.dim()) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -206,7 +207,7 @@ class RelativePoseCovarianceOfImages : public testing::Test {
     }
     window.camera_prior.setConstant(1e4);
     // The Hessian is that of the state before the last step: the second time that is the optimum.
-    for (int i = 0; i < 2; ++i) WindowOptimizer(settings_, pool_).optimize(window, 20);
+    for (int i = 0; i < 2; ++i) WindowOptimizer(pool_).optimize(window, 20);
     EXPECT_EQ(window.hessian.rows(), window.dim());
     EXPECT_GT(window.rmse, 0);
     return window;
@@ -214,7 +215,6 @@ class RelativePoseCovarianceOfImages : public testing::Test {
 
   static std::unique_ptr<test::SyntheticScene> scene_;
   static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
-  WindowSettings settings_;
   ThreadPool pool_{1};
 };
 
@@ -359,6 +359,18 @@ TEST_F(FinishedKeyframeTest, AtTheEndAllLeave) {
     expect_true_constraints(finished[i]);
   }
   EXPECT_TRUE(finish_all(bare_window(0)).empty());
+}
+
+TEST_F(FinishedKeyframeTest, HasItsOwnCamera) {
+  window_.camera << 301, 302, 160, 121;
+  window_.keyframes[2]->leaving = true;
+  const std::vector<FinishedKeyframe> leaving = finish_leaving(window_);
+  ASSERT_EQ(leaving.size(), 1u);
+  window_ = bare_window(0);
+  EXPECT_EQ(leaving[0].camera.fx, 301);
+  EXPECT_EQ(leaving[0].camera.fy, 302);
+  EXPECT_EQ(leaving[0].camera.cx, 160);
+  EXPECT_EQ(leaving[0].camera.cy, 121);
 }
 
 TEST_F(FinishedKeyframeTest, KeepsImageCornersAndPoints) {
