@@ -25,7 +25,7 @@ FinishedKeyframe finish(const Window& window, const Keyframe& keyframe, bool wit
   if (!with_active) return finished;
   for (const ActivePoint& point : keyframe.points) {
     if (point.good_residuals >= kLeastGoodResiduals)
-      update.points.push_back(make_map_point(point));
+      update.points.push_back(make_map_point(point, window.residual_variance()));
   }
   return finished;
 }
@@ -59,13 +59,13 @@ std::vector<FinishedKeyframe> finish_some(const Window& window, bool all) {
 
 }  // namespace
 
-MapPoint make_map_point(const ActivePoint& point) {
+MapPoint make_map_point(const ActivePoint& point, double residual_variance) {
   MapPoint result;
   result.u = point.u;
   result.v = point.v;
   result.idepth = point.idepth;
   const float hessian = point.idepth_hessian > kLeastHessian ? point.idepth_hessian : kLeastHessian;
-  result.idepth_stddev = std::sqrt(1.0f / hessian);
+  result.idepth_stddev = static_cast<float>(std::sqrt(residual_variance)) * std::sqrt(1.0f / hessian);
   result.intensity = point.patch.intensity[4];
   result.is_corner = point.is_corner;
   return result;

@@ -22,8 +22,8 @@ struct FinishedKeyframe {
   std::shared_ptr<const PreparedFrame> frame;  ///< Its image, from which corners can be described.
 };
 
-/// A point of the map from an active one.
-MapPoint make_map_point(const ActivePoint& point);
+/// A point of the map from an active one. `residual_variance`: of the window that optimized it.
+MapPoint make_map_point(const ActivePoint& point, double residual_variance);
 
 /// Those that are flagged as leaving, oldest first, with constraints to those that stay (to each one to those that
 /// come after it among the leaving ones, too).

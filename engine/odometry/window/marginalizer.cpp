@@ -49,7 +49,7 @@ void Marginalizer::marginalize_points(Window& window) {
     for (ActivePoint& point : keyframe->points) {
       point.flagged = (keyframe->leaving || leaves_view(point)) && is_reliable(point);
       if (!point.flagged) continue;
-      keyframe->finished.push_back(make_map_point(point));
+      keyframe->finished.push_back(make_map_point(point, window.residual_variance()));
       keyframe->in_prior = true;
       for (PointResidual& residual : point.residuals) residual.target->in_prior = true;
     }

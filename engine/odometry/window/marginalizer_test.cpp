@@ -113,7 +113,7 @@ TEST_F(MarginalizerTest, ThePriorIsTheWeightedSchurComplementOfTheLeavingPoints)
   for (const MapPoint& point : updates[0].update.points) {
     EXPECT_GT(point.idepth, 0);
     EXPECT_GT(point.idepth_stddev, 0);
-    EXPECT_LT(point.idepth_stddev, 1 / std::sqrt(50.0f));
+    EXPECT_LT(point.idepth_stddev, std::sqrt(window_.residual_variance() / settings_.least_idepth_hessian));
   }
 }
 

@@ -373,6 +373,25 @@ TEST_F(FinishedKeyframeTest, HasItsOwnCamera) {
   EXPECT_EQ(leaving[0].camera.cy, 121);
 }
 
+TEST(MapPointTest, ItsDeviationGrowsWithTheResiduals) {
+  ActivePoint point;
+  point.idepth_hessian = 400;
+  EXPECT_FLOAT_EQ(make_map_point(point, 9).idepth_stddev, 3 / 20.0f);
+  Window window = bare_window(2);
+  window.rmse = 2;
+  EXPECT_EQ(window.residual_variance(), kResidualCorrelation * 4);
+  window.rmse = 0;  // Is not believed.
+  EXPECT_GT(window.residual_variance(), 1);
+}
+
+TEST(MapPointTest, ItsDeviationIsFiniteWhateverItsHessian) {
+  ActivePoint point;
+  for (const float hessian : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    point.idepth_hessian = hessian;
+    EXPECT_TRUE(std::isfinite(make_map_point(point, 1).idepth_stddev)) << hessian;
+  }
+}
+
 TEST_F(FinishedKeyframeTest, KeepsImageCornersAndPoints) {
   window_.keyframes[2]->leaving = true;
   const std::vector<FinishedKeyframe> leaving = finish_leaving(window_);
@@ -389,7 +408,8 @@ TEST_F(FinishedKeyframeTest, KeepsImageCornersAndPoints) {
   const MapPoint& point = all[2].update.points[1];
   EXPECT_EQ(point.u, 33);
   EXPECT_EQ(point.idepth, 0.25f);
-  EXPECT_FLOAT_EQ(point.idepth_stddev, 1 / 20.0f);
+  // Residuals of 1 grey level, correlated.
+  EXPECT_FLOAT_EQ(point.idepth_stddev, static_cast<float>(std::sqrt(kResidualCorrelation)) / 20.0f);
   EXPECT_TRUE(point.is_corner);
   EXPECT_EQ(all[4].corners, window_.keyframes[4]->corners);
 }
