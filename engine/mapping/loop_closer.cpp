@@ -259,9 +259,11 @@ void LoopCloser::optimize() {
     if (usable) record_of_loop.push_back(loop.record);
   }
   last_optimized_ = map_.size() - 1;
+  const PoseGraphReport report = graph.optimize(last_optimized_);
+  graph_failure_ = report.ok ? std::string() : report.reason;
+  if (!report.ok) return;
   ++optimizations_;
   loops_in_graph_ = accepted_.size();
-  graph.optimize(last_optimized_);
   for (std::size_t i = 0; i < record_of_loop.size(); ++i) {
     records_[record_of_loop[i]].graph_weight = graph.loops()[i].weight;
   }

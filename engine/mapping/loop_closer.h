@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "image/frame.h"
@@ -53,12 +54,18 @@ class LoopCloser {
   KeyframePose newest_pose() const { return {map_[map_.size() - 1].frame_id, corrected_.back()}; }
   /// How often all poses have changed.
   int optimizations() const { return optimizations_; }
+  /// Why the newest optimization of the pose graph failed: the poses are those before it, and the loops since wait for
+  /// the next one. Empty if it did not.
+  const std::string& graph_failure() const { return graph_failure_; }
   const std::vector<LoopRecord>& loops() const { return records_; }
   const StageTimes& times() const { return times_; }
   const KeyframeMap& map() const { return map_; }
   const VarianceFactors& variance_factors() const { return variance_factors_; }
 
  private:
+  /// A keyframe before all others by more than any spacing.
+  static constexpr int kLongAgo = -1'000'000'000;
+
   /// A verified loop.
   struct Hypothesis {
     int current = 0, candidate = 0;
@@ -92,15 +99,15 @@ class LoopCloser {
   LoopSettings settings_;
   KeyframeMap map_;
   LoopDetector detector_;
-  PoseGraph odometry_graph_;      ///< Without loops.
   std::vector<Sim3d> corrected_;  ///< Poses of the keyframes.
   std::vector<Hypothesis> hypotheses_;
   std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
   std::vector<LoopRecord> records_;
   VarianceFactors variance_factors_;
-  int last_accepted_ = -1000;   ///< Keyframe of the last closed loop.
-  int last_optimized_ = -1000;  ///< Newest keyframe when the graph was optimized last.
+  int last_accepted_ = kLongAgo;   ///< Keyframe of the last closed loop.
+  int last_optimized_ = kLongAgo;  ///< Newest keyframe when the graph was optimized last, whether it worked or not.
   int optimizations_ = 0;
+  std::string graph_failure_;
   std::size_t loops_in_graph_ = 0;  ///< Those that the corrected poses take account of.
   StageTimes times_;
 };

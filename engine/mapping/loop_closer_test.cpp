@@ -329,6 +329,22 @@ TEST(LoopCloserTest, CovariancesThatAreNone) {
   }
 }
 
+/// The solver gives up if a residual is far beyond all that means something: here of a link, beside the chain, that
+/// pretends to know everything and is wrong.
+TEST(LoopCloserTest, AnOptimizationThatFailsIsNotDone) {
+  Drive drive = circle_drive(52, 1);
+  KeyframeConstraint& beside_the_chain = drive.updates[25].constraints.back();
+  ASSERT_GT(beside_the_chain.keyframe_id, drive.updates[26].frame_id);
+  beside_the_chain.T_this_other.translation()[0] += 0.1;
+  beside_the_chain.covariance = 1e-150 * Matrix7d::Identity();
+  LoopCloser closer = closed(drive);
+  ASSERT_GT(accepted_loops(closer), 0);
+  EXPECT_EQ(closer.optimizations(), 0);
+  EXPECT_FALSE(closer.graph_failure().empty());
+  expect_poses_of_odometry(drive, closer);
+  EXPECT_TRUE(closed(circle_drive(52, 1)).graph_failure().empty());
+}
+
 TEST(LoopCloserTest, AfterARestart) {
   const Drive drive = circle_drive(56, 18, {}, {20});
   const LoopCloser closer = closed(drive);

@@ -32,12 +32,12 @@ LoopThread::~LoopThread() {
   queue_.close();
 }
 
-void LoopThread::add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera) {
+void LoopThread::add(FinishedKeyframe keyframe) {
   {
     const std::lock_guard lock(mutex_);
     ++added_;
   }
-  queue_.push({std::move(keyframe), camera});
+  queue_.push(std::move(keyframe));
 }
 
 void LoopThread::publish(const Sim3d& correction) {
@@ -61,16 +61,18 @@ Sim3d LoopThread::correction() {
 void LoopThread::process(const std::stop_token& stop) {
   if (!vocabulary_) vocabulary_ = std::make_shared<const Vocabulary>(default_vocabulary());
   closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
-  while (std::optional<Item> item = queue_.pop()) {
+  while (const std::optional<FinishedKeyframe> keyframe = queue_.pop()) {
     if (stop.stop_requested()) return;
-    const FinishedKeyframe& keyframe = item->keyframe;
-    closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);
+    closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->camera);
     publish(closer_->correction());
     tell();
   }
   if (stop.stop_requested()) return;
   closer_->finish();
   if (closer_->optimizations() > optimizations_told_) tell();
+  if (!closer_->graph_failure().empty()) {
+    log_to(log_, LogLevel::kWarning, "the last loops move no keyframe: " + closer_->graph_failure());
+  }
 }
 
 void LoopThread::tell() {

@@ -67,6 +67,7 @@ std::vector<FinishedKeyframe> there_and_back() {
     poses.push_back(T);
     FinishedKeyframe keyframe;
     keyframe.frame = frame_of(10 * i, place);
+    keyframe.camera = camera();
     const Image<Texel>& image = keyframe.frame->pyramid.levels.front();
     keyframe.corners = corners_of(image);
     keyframe.update.frame_id = 10 * i;
@@ -119,7 +120,7 @@ TEST_F(LoopThreadTest, GivesWhatLoopCloserGives) {
   LoopThread thread(loop_settings(), [&](LogLevel, const std::string& message) { log.push_back(message); });
   LoopCloser closer(std::make_shared<const Vocabulary>(default_vocabulary()), loop_settings());
   for (const FinishedKeyframe& keyframe : keyframes_) {
-    thread.add(keyframe, camera());
+    thread.add(keyframe);
     closer.add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), camera());
   }
   closer.finish();
@@ -154,7 +155,7 @@ TEST_F(LoopThreadTest, CorrectionsDoNotDependOnTime) {
   for (std::vector<Sim3d>& of_run : corrections) {
     LoopThread thread(loop_settings(), {});
     for (const FinishedKeyframe& keyframe : keyframes_) {
-      thread.add(keyframe, camera());
+      thread.add(keyframe);
       if (keyframe.update.frame_id % 3 == 0) of_run.push_back(thread.correction());
     }
     ASSERT_NE(thread.finish(), nullptr);
@@ -183,11 +184,11 @@ TEST_F(LoopThreadTest, AFailureEndsLoopClosingOnly) {
   std::vector<std::pair<LogLevel, std::string>> log;
   LoopThread thread(LoopSettings{},
                     [&](LogLevel level, const std::string& message) { log.emplace_back(level, message); });
-  thread.add(keyframes_[0], camera());
-  thread.add(keyframes_[0], camera());  // A frame id that is there.
+  thread.add(keyframes_[0]);
+  thread.add(keyframes_[0]);  // A frame id that is there.
   // Far more than may wait: whoever adds them does not notice.
   for (int round = 0; round < 4; ++round) {
-    for (const FinishedKeyframe& keyframe : keyframes_) thread.add(keyframe, camera());
+    for (const FinishedKeyframe& keyframe : keyframes_) thread.add(keyframe);
   }
   EXPECT_TRUE(thread.correction().matrix().isIdentity());
   EXPECT_EQ(thread.finish(), nullptr);
@@ -199,8 +200,8 @@ TEST_F(LoopThreadTest, AFailureEndsLoopClosingOnly) {
 
 TEST_F(LoopThreadTest, AFailureWithoutALog) {
   LoopThread thread(LoopSettings{}, {});
-  thread.add(keyframes_[0], camera());
-  thread.add(keyframes_[0], camera());
+  thread.add(keyframes_[0]);
+  thread.add(keyframes_[0]);
   EXPECT_EQ(thread.finish(), nullptr);
 }
 
@@ -209,8 +210,8 @@ TEST_F(LoopThreadTest, AnEndWithoutFinishDropsWhatWaits) {
   std::vector<std::string> log;
   {
     LoopThread thread(LoopSettings{}, [&](LogLevel, const std::string& message) { log.push_back(message); });
-    for (int i = 0; i < 14; ++i) thread.add(keyframes_[i], camera());
-    thread.add(keyframes_[0], camera());  // Would be heard of: the frame id is there.
+    for (int i = 0; i < 14; ++i) thread.add(keyframes_[i]);
+    thread.add(keyframes_[0]);  // Would be heard of: the frame id is there.
   }
   EXPECT_TRUE(log.empty());
 }
@@ -219,10 +220,10 @@ TEST_F(LoopThreadTest, MayEndWithoutFinish) {
   { const LoopThread idle(LoopSettings{}, {}); }
   {
     LoopThread thread(LoopSettings{}, {});
-    for (int i = 0; i < 3; ++i) thread.add(keyframes_[i], camera());
+    for (int i = 0; i < 3; ++i) thread.add(keyframes_[i]);
   }
   LoopThread failed(LoopSettings{}, {});
-  for (int i = 0; i < 3; ++i) failed.add(keyframes_[0], camera());
+  for (int i = 0; i < 3; ++i) failed.add(keyframes_[0]);
 }
 
 }  // namespace

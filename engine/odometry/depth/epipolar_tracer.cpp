@@ -7,6 +7,7 @@
 
 #include "image/interpolation.h"
 #include "odometry/depth/search_kernels.h"
+#include "odometry/state/robust_weight.h"
 
 namespace ldso {
 namespace {
@@ -145,7 +146,7 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
         continue;
       }
       const float r = t.intensity - pattern.intensity[i];
-      const float weight = std::fabs(r) < kHuberThreshold ? 1 : kHuberThreshold / std::fabs(r);
+      const float weight = huber_weight(r);
       const float slope = segment.dx * t.dx + segment.dy * t.dy;
       H += weight * slope * slope;
       b += weight * r * slope;

@@ -11,6 +11,7 @@
 #include "image/interpolation.h"
 #include "odometry/init/patch_tracker.h"
 #include "odometry/state/residual_pattern.h"
+#include "odometry/state/robust_weight.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -185,7 +186,7 @@ class Level {
       return false;
     }
     const float r = s.intensity - factor * host.intensity[k] - offset;
-    const float huber = std::abs(r) <= kHuberThreshold ? 1.0f : kHuberThreshold / std::abs(r);
+    const float huber = huber_weight(r);
     const float weight = 0.5f * (host.weight[k] + gradient_weight(s)) * huber;
     const float gx = s.dx * fx * iz;
     const float gy = s.dy * fy * iz;

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "image/interpolation.h"
+#include "odometry/state/robust_weight.h"
 
 namespace ldso {
 namespace {
 
 constexpr int kIterations = 12;
 constexpr std::size_t kMostPixels = 8000;  // Finer levels are not used: a prediction need not be precise.
-constexpr float kHuber = 9.0f;
 constexpr double kMinOverlap = 0.4;
 constexpr double kSearchStep = 2.0;  // [px of the coarsest level]
 constexpr int kSearchStepsX = 4;
@@ -103,10 +103,10 @@ class Level {
     if (s.valid == 0) return;
     const float reference = from_(x, y).intensity;
     const float r = s.intensity - static_cast<float>(state.gain) * reference - static_cast<float>(state.offset);
-    const float weight = std::abs(r) <= kHuber ? 1.0f : kHuber / std::abs(r);
+    const float weight = huber_weight(r);
     const float gx = s.dx * fx;
     const float gy = s.dy * fy;
-    sums.energy += std::abs(r) <= kHuber ? r * r : kHuber * (2 * std::abs(r) - kHuber);
+    sums.energy += huber_energy(r);
     ++sums.used;
     if (!derivatives) return;
     // d(u, v) / d omega for q -> q + omega x q at the normalized point (X, Y, 1).

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry/rolling_shutter.h"
+#include "odometry/state/robust_weight.h"
 
 namespace ldso {
 namespace {
