@@ -10,8 +10,11 @@
 namespace ldso {
 namespace {
 
+/// Alternations between the factors of the odometry and that of the loops.
 constexpr int kRounds = 12;
+/// Multiplicative steps of the odometry's in each of them.
 constexpr int kSteps = 10;
+/// A larger factor means nothing more: what it belongs to no longer counts.
 constexpr double kMostFactor = 1e8;
 /// Median of chi squared with seven degrees of freedom.
 constexpr double kMedianChi2 = 6.35;
