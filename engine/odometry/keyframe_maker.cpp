@@ -9,8 +9,9 @@
 namespace ldso {
 namespace {
 
-/// Iterations at least with two and with three keyframes: depths are still rough then.
+/// Iterations at least with two keyframes: depths are still rough then.
 constexpr int kFirstIterations = 20;
+/// With three.
 constexpr int kSecondIterations = 15;
 
 /// What an optimization changes of a window, but for the point of linearization of the prior, which stays.

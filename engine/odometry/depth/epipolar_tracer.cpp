@@ -12,6 +12,7 @@
 namespace ldso {
 namespace {
 
+/// Positions along a segment that are looked at, one pixel apart.
 constexpr int kMostPositions = 100;
 /// Farthest that a turned pattern may reach from its centre [px].
 constexpr float kPatternReach = 3.5f;
@@ -21,10 +22,14 @@ constexpr float kBorder = kPatternReach + 2.5f;
 constexpr float kShortInterval = 1.5f;
 /// Second-best matches nearer than this to the best one do not count [px].
 constexpr float kAmbiguityRadius = 2;
+/// Energy of a match whose pixels differ by 12 grey levels each: above it is an outlier (DSO's threshold of a
+/// residual).
 constexpr float kOutlierEnergy = 12.0f * 12.0f * kPatternSize;
 /// Slack on the outlier energy of tracing over that of the window.
 constexpr float kOutlierSlack = 1.2f;
+/// Gauss-Newton steps below a pixel.
 constexpr int kRefinements = 4;
+/// A match is believed to be that wrong at most [px].
 constexpr float kLargestError = 10;
 
 }  // namespace

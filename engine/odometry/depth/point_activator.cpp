@@ -10,8 +10,9 @@
 namespace ldso {
 namespace {
 
-/// Range of the spacing [px].
+/// The spacing goes down to nothing, where points are rare [px],
 constexpr float kLeastSpacing = 0.0f;
+/// and up to this, beyond which an image would hold too few of them [px].
 constexpr float kMostSpacing = 12.0f;
 /// Largest block scale of the selection: coarse points need that much more room.
 constexpr float kMostScale = 4.0f;

@@ -13,12 +13,19 @@
 namespace ldso {
 namespace {
 
+/// Gauss-Newton steps on each level.
 constexpr int kIterations = 12;
-constexpr std::size_t kMostPixels = 8000;  // Finer levels are not used: a prediction need not be precise.
+/// Levels with more pixels are not used: a prediction need not be precise.
+constexpr std::size_t kMostPixels = 8000;
+/// Share of the pixels that both images have to show.
 constexpr double kMinOverlap = 0.4;
-constexpr double kSearchStep = 2.0;  // [px of the coarsest level]
+/// Distance between the rotations that are tried first [px of the coarsest level].
+constexpr double kSearchStep = 2.0;
+/// So many of them to the left and to the right,
 constexpr int kSearchStepsX = 4;
+/// and up and down.
 constexpr int kSearchStepsY = 2;
+/// Of those so many of the best are refined.
 constexpr std::size_t kFinalists = 3;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;

@@ -12,15 +12,17 @@
 namespace ldso {
 namespace {
 
+/// Sizes of blocks: d, 2 d and 4 d (DSO section 3.2).
 constexpr int kScales = 3;
-
 // The count is met if it is in [wanted, kAcceptedExcess * wanted]; what is above is dropped at random.
 constexpr double kAcceptedExcess = 1.08;
+// Sides of blocks that are tried for it.
 constexpr int kSearchSteps = 8;
 // Closer points see the same pattern: before blocks become smaller, thresholds are lowered.
 constexpr double kLeastBlockSide = 2.0;
 // Factors on the added threshold, tried in this order until the wanted number is (nearly) there.
 constexpr double kThresholdRelaxations[] = {1.0, 0.5, 0.25};
+// Share of the wanted number that is nearly there.
 constexpr double kEnough = 0.9;
 
 struct SidedCount {
