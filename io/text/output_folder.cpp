@@ -58,6 +58,7 @@ bool OutputFolder::is_one(const fs::path& folder) { return is_there(folder / kLi
 void OutputFolder::adopt(const std::vector<std::string>& names) {
   std::copy_if(names.begin(), names.end(), std::inserter(own_, own_.end()),
                [&](const std::string& name) { return is_there(folder_ / name); });
+  if (own_.empty()) return;  // Nothing of ldso: the folder is left as it is.
   write_list();
   has_list_ = true;
 }

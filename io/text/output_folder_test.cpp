@@ -73,6 +73,14 @@ TEST_F(OutputFolderTest, FilesOfAVersionWithoutAListAreAdopted) {
   EXPECT_FALSE(OutputFolder(folder_).owns("trajectory.txt"));
 }
 
+TEST_F(OutputFolderTest, AFolderThatIsRefusedStaysAsItWas) {
+  put("camera.txt", "mine");
+  OutputFolder out(folder_);
+  out.adopt({"map.ply"});
+  EXPECT_THROW(out.check({"camera.txt"}), Error);
+  EXPECT_FALSE(OutputFolder::is_one(folder_));
+}
+
 TEST_F(OutputFolderTest, AFolderInsideIsOneName) {
   put("images/00000.png", "mine");
   fs::create_directories(folder_ / "depth");

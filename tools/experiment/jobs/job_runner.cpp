@@ -14,6 +14,7 @@
 #include "experiment/jobs/job_folder.h"
 #include "experiment/jobs/run_file.h"
 #include "experiment/jobs/time_left.h"
+#include "io/text/output_folder.h"
 #include "ldso/error.h"
 
 namespace ldso {
