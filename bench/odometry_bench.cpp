@@ -167,7 +167,7 @@ BENCHMARK(back_substitute)->Unit(benchmark::kMicrosecond);
 /// Six iterations from a disturbed state; making the window is not timed.
 void optimize_window(benchmark::State& state) {
   ThreadPool pool(static_cast<int>(state.range(0)));
-  WindowOptimizer optimizer({}, pool);
+  WindowOptimizer optimizer(pool);
   for (auto _ : state) {
     state.PauseTiming();
     Window window = full_window();

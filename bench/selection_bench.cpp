@@ -63,7 +63,7 @@ void squared_gradients_of_image(benchmark::State& state, Kernel kernel) {
   }
 }
 BENCHMARK_CAPTURE(squared_gradients_of_image, simd, &squared_gradient_row)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(squared_gradients_of_image, scalar, &reference::squared_gradient_row)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(squared_gradients_of_image, scalar, &squared_gradient_row_reference)->Unit(benchmark::kMicrosecond);
 
 template <class Kernel>
 void tensor_of_image(benchmark::State& state, Kernel kernel) {
@@ -77,7 +77,7 @@ void tensor_of_image(benchmark::State& state, Kernel kernel) {
   }
 }
 BENCHMARK_CAPTURE(tensor_of_image, simd, &tensor_row)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(tensor_of_image, scalar, &reference::tensor_row)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(tensor_of_image, scalar, &tensor_row_reference)->Unit(benchmark::kMicrosecond);
 
 template <class Kernel>
 void corner_scores_of_image(benchmark::State& state, Kernel kernel) {
@@ -97,7 +97,7 @@ void corner_scores_of_image(benchmark::State& state, Kernel kernel) {
   }
 }
 BENCHMARK_CAPTURE(corner_scores_of_image, simd, &corner_score_row)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(corner_scores_of_image, scalar, &reference::corner_score_row)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(corner_scores_of_image, scalar, &corner_score_row_reference)->Unit(benchmark::kMicrosecond);
 
 // Squared gradients and thresholds that about one pixel in ten exceeds.
 struct SearchImage {
@@ -126,7 +126,7 @@ void find_above_in_image(benchmark::State& state, Kernel kernel) {
   state.counters["found"] = found;
 }
 BENCHMARK_CAPTURE(find_above_in_image, simd, &find_above)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(find_above_in_image, scalar, &reference::find_above)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(find_above_in_image, scalar, &find_above_reference)->Unit(benchmark::kMicrosecond);
 
 template <class Kernel>
 void find_peaks_in_image(benchmark::State& state, Kernel kernel) {
@@ -145,7 +145,7 @@ void find_peaks_in_image(benchmark::State& state, Kernel kernel) {
   state.counters["found"] = found;
 }
 BENCHMARK_CAPTURE(find_peaks_in_image, simd, &find_peaks)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(find_peaks_in_image, scalar, &reference::find_peaks)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(find_peaks_in_image, scalar, &find_peaks_reference)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace ldso

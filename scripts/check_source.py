@@ -75,7 +75,7 @@ ROOMS = {
 LIBRARIES = {
     r"opencv2/": {"io", "camera", "place", ""},
     r"zip\.h": {"io", "simulation"},
-    r"yaml-cpp/": {"io", "experiment", "simulation"},
+    r"yaml-cpp/": {"io", "simulation"},
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
     r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},
@@ -217,6 +217,7 @@ HABITS = [
 LIBRARY_HABITS = [
     (r"\bstd::(cout|cerr|clog)\b|\b(?:std::)?(?:printf|puts|fprintf)\(", "the library prints nothing: use a LogSink"),
     (r"\b(?:std::)?(?:exit|abort|quick_exit)\(", "the library does not end the program: throw ldso::Error"),
+    (r"\bset(?:NumThreads|LogLevel)\(|\bsetlocale\(|\bstd::signal\(", "what holds for the process is the program's"),
 ]
 
 

@@ -9,6 +9,7 @@ namespace {
 // The coarsest level still needs structure: about 48 x 30 pixels are the least that align a frame.
 constexpr int kMinCoarsestWidth = 48;
 constexpr int kMinCoarsestHeight = 30;
+// As many as the iterations of tracking are set for.
 constexpr int kMaxLevels = 6;
 
 }  // namespace

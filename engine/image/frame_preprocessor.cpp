@@ -23,7 +23,8 @@ FramePreprocessor::FramePreprocessor(const Calibration& calibration, const Photo
       rectifier_(calibration.camera, calibration.rectification) {}
 
 PreparedFrame FramePreprocessor::process(const RawFrame& raw) const {
-  check_size(raw);
+  const std::string name = raw.name.empty() ? "" : " (" + raw.name + ")";
+  check_size("frame " + std::to_string(raw.id) + name, raw.grey.width(), raw.grey.height());
   MaskedImage image(width_, height_);
   photometric_.apply(raw.grey.view(), image.view());
   if (!rectifier_.is_identity()) {
@@ -43,13 +44,12 @@ PreparedFrame FramePreprocessor::process(const RawFrame& raw) const {
   return frame;
 }
 
-void FramePreprocessor::check_size(const RawFrame& raw) const {
-  if (raw.grey.width() == width_ && raw.grey.height() == height_) return;
-  const std::string name = raw.name.empty() ? "" : " (" + raw.name + ")";
-  throw Error("frame " + std::to_string(raw.id) + name,
-              "the image has " + size_text(raw.grey.width(), raw.grey.height()) +
-                  " pixels but the calibration is for " + size_text(width_, height_),
-              "calibrate for this image size, or correct the input size in the calibration file");
+void FramePreprocessor::check_size(const std::string& frame, int width, int height) const {
+  if (width == width_ && height == height_) return;
+  throw Error(
+      frame,
+      "the image has " + size_text(width, height) + " pixels but the calibration is for " + size_text(width_, height_),
+      "calibrate for this image size, or correct the input size in the calibration file");
 }
 
 }  // namespace ldso

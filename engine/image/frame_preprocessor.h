@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "image/frame.h"
 #include "image/photometric_calibration.h"
 #include "image/rectifier.h"
@@ -20,6 +22,9 @@ class FramePreprocessor {
   /// positive counts as unknown. Throws Error naming the frame if its size is not that of the calibration.
   PreparedFrame process(const RawFrame& raw) const;
 
+  /// Throws Error that says it is `frame` unless the size is that of the calibration.
+  void check_size(const std::string& frame, int width, int height) const;
+
   /// The camera of the prepared frames.
   const PinholeIntrinsics& output_camera() const { return rectifier_.output_camera(); }
 
@@ -27,8 +32,6 @@ class FramePreprocessor {
   bool photometrically_calibrated() const { return photometric_.has_response(); }
 
  private:
-  void check_size(const RawFrame& raw) const;
-
   int width_;
   int height_;
   bool use_exposure_;

@@ -47,19 +47,18 @@ LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& c
 
 }  // namespace
 
-LoopCloser::LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings)
+LoopCloser::LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopSettings& settings)
     : vocabulary_(std::move(vocabulary)),
       settings_(settings),
-      detector_(vocabulary_->word_count(), settings.detection) {
-  settings.graph.validate();
-}
+      map_(settings.drift),
+      detector_(vocabulary_->word_count(), settings) {}
 
 void LoopCloser::add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
                      const PinholeIntrinsics& camera) {
   KeyframeFeatures features;
   {
     const StageTimer stage(times_, "loops/describe");
-    features = build_features(image, corners, update.points, *vocabulary_);
+    features = build_features(image, corners, update.points, *vocabulary_, settings_.matching);
     take_out_readout(camera, update.readout, features.features);
   }
   const CurrentImage current{image, update.readout};
@@ -99,7 +98,7 @@ void LoopCloser::place(int index) {
 
 bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera,
                         const CurrentImage* current) {
-  LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_.verification);
+  LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_);
   if (v.accepted && current != nullptr) sharpen(candidate.index, camera, *current, v);
   records_.push_back(make_record(map_, index, candidate, v));
   if (!v.accepted) return false;
@@ -139,11 +138,11 @@ std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDi
     return text;
   }
   const double angle = d.x.segment<3>(3).norm() * 180 / std::numbers::pi;
-  if (angle > settings_.max_drift_deg) {
+  if (angle > settings_.drift.max_rotation_deg) {
     std::snprintf(text, sizeof(text), "the odometry cannot be turned by so much: %.3g deg", angle);
     return text;
   }
-  if (std::abs(d.x[6]) > settings_.max_drift_log_scale) {
+  if (std::abs(d.x[6]) > settings_.drift.max_log_scale) {
     std::snprintf(text, sizeof(text), "the odometry's scale cannot be off by so much: %.3g", std::exp(d.x[6]));
     return text;
   }
@@ -165,11 +164,11 @@ LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis
 }
 
 bool LoopCloser::confirms(const Hypothesis& older, const Hypothesis& newer) const {
-  const std::vector<int> around = map_.covisible(newer.candidate, 3);
+  const std::vector<int> around = map_.covisible(newer.candidate, settings_.confirmation.hops);
   if (!std::binary_search(around.begin(), around.end(), older.candidate)) return false;
   const LoopDiscrepancy d =
       difference(older, newer, map_.chain(newer.current, older.current), map_.chain(older.candidate, newer.candidate));
-  return discrepancy_chi2(d, variance_factors_) < settings_.confirmation_chi2;
+  return discrepancy_chi2(d, variance_factors_) < settings_.confirmation.chi2;
 }
 
 bool LoopCloser::decide(Hypothesis hypothesis) {
@@ -179,9 +178,9 @@ bool LoopCloser::decide(Hypothesis hypothesis) {
   record.drift_chi2 = discrepancy_chi2(d, {});
   record.reason = contradiction(hypothesis, d);
   if (!record.reason.empty()) return false;
-  bool confirmed = record.inliers >= settings_.strong_inliers;
+  bool confirmed = record.inliers >= settings_.confirmation.strong_inliers;
   for (Hypothesis& older : hypotheses_) {
-    if (older.current + settings_.confirmation_gap < hypothesis.current) continue;
+    if (older.current + settings_.confirmation.gap < hypothesis.current) continue;
     if (older.current == hypothesis.current || !confirms(older, hypothesis)) continue;
     confirmed = true;
     if (!older.accepted) accept(older);
@@ -201,14 +200,14 @@ void LoopCloser::accept(Hypothesis& hypothesis) {
 }
 
 bool LoopCloser::is_due(int index) const {
-  // The larger the graph, the longer it takes and the less a loop more changes.
-  if (index < last_optimized_ + std::max(settings_.graph_spacing, map_.size() / 20)) return false;
+  const int spacing = std::max(settings_.graph.spacing, map_.size() / settings_.graph.spacing_divisor);
+  if (index < last_optimized_ + spacing) return false;
   for (std::size_t i = loops_in_graph_; i < accepted_.size(); ++i) {
     const Hypothesis& loop = accepted_[i];
     const Sim3d S_graph = corrected_[loop.current].inverse() * corrected_[loop.candidate];
     const Sim3d::Tangent x = (loop.S_current_candidate * S_graph.inverse()).log();
     const Matrix7d C = variance_factors_.loops * loop.covariance;
-    if (!(x.dot(C.ldlt().solve(x)) < settings_.graph_chi2)) return true;
+    if (!(x.dot(C.ldlt().solve(x)) < settings_.graph.chi2)) return true;
   }
   return false;
 }
@@ -229,7 +228,7 @@ VarianceFactors LoopCloser::learn_variances() const {
     between.push_back(difference(last, loop, chains.between(loop.current, last.current),
                                  chains.between(last.candidate, loop.candidate)));
   }
-  return estimate_variance_factors(with_odometry, between);
+  return estimate_variance_factors(with_odometry, between, settings_.drift);
 }
 
 PoseGraph LoopCloser::build_odometry_graph() const {
@@ -260,9 +259,11 @@ void LoopCloser::optimize() {
     if (usable) record_of_loop.push_back(loop.record);
   }
   last_optimized_ = map_.size() - 1;
+  const PoseGraphReport report = graph.optimize(last_optimized_);
+  graph_failure_ = report.ok ? std::string() : report.reason;
+  if (!report.ok) return;
   ++optimizations_;
   loops_in_graph_ = accepted_.size();
-  graph.optimize(last_optimized_);
   for (std::size_t i = 0; i < record_of_loop.size(); ++i) {
     records_[record_of_loop[i]].graph_weight = graph.loops()[i].weight;
   }

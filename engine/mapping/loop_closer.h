@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "image/frame.h"
 #include "ldso/calibration.h"
+#include "ldso/loop_settings.h"
 #include "ldso/records.h"
 #include "ldso/sim3.h"
 #include "mapping/graph/drift_model.h"
@@ -25,25 +27,9 @@
 
 namespace ldso {
 
-struct LoopCloserSettings {
-  LoopDetectorSettings detection;
-  LoopVerifierSettings verification;
-  LoopSharpenerSettings sharpening;
-  PoseGraphSettings graph;
-  double max_drift = 0.15;           ///< Distance of a loop from the odometry, of the way between both, and
-  double max_drift_deg = 30;         ///< its rotation, that drift can explain.
-  double max_drift_log_scale = 1.5;  ///< And its scale.
-  int confirmation_gap = 8;          ///< Keyframes within which a second one must show the same.
-  double confirmation_chi2 = 30;     ///< Largest distance of both, squared, in standard deviations.
-  int spacing = 2;                   ///< Keyframes from one closed loop to the next, at least.
-  int graph_spacing = 60;            ///< Keyframes from one optimization of the graph to the next, at least.
-  double graph_chi2 = 50;            ///< Squared distance of a new loop from the poses that calls for one.
-  int strong_inliers = 60;           ///< With so many inliers one keyframe is enough.
-};
-
 class LoopCloser {
  public:
-  explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopCloserSettings& settings = {});
+  explicit LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopSettings& settings = {});
 
   /// A keyframe that left the window, in the order in which they do, with its image and the camera as estimated then.
   void add(const KeyframeUpdate& update, std::span<const Eigen::Vector2f> corners, const Image<Texel>& image,
@@ -68,12 +54,18 @@ class LoopCloser {
   KeyframePose newest_pose() const { return {map_[map_.size() - 1].frame_id, corrected_.back()}; }
   /// How often all poses have changed.
   int optimizations() const { return optimizations_; }
+  /// Why the newest optimization of the pose graph failed: the poses are those before it, and the loops since wait for
+  /// the next one. Empty if it did not.
+  const std::string& graph_failure() const { return graph_failure_; }
   const std::vector<LoopRecord>& loops() const { return records_; }
   const StageTimes& times() const { return times_; }
   const KeyframeMap& map() const { return map_; }
   const VarianceFactors& variance_factors() const { return variance_factors_; }
 
  private:
+  /// A keyframe before all others by more than any spacing.
+  static constexpr int kLongAgo = -1'000'000'000;
+
   /// A verified loop.
   struct Hypothesis {
     int current = 0, candidate = 0;
@@ -104,18 +96,18 @@ class LoopCloser {
   void optimize();
 
   std::shared_ptr<const Vocabulary> vocabulary_;
-  LoopCloserSettings settings_;
+  LoopSettings settings_;
   KeyframeMap map_;
   LoopDetector detector_;
-  PoseGraph odometry_graph_;      ///< Without loops.
   std::vector<Sim3d> corrected_;  ///< Poses of the keyframes.
   std::vector<Hypothesis> hypotheses_;
   std::vector<Hypothesis> accepted_;  ///< In the order of the graph's loops.
   std::vector<LoopRecord> records_;
   VarianceFactors variance_factors_;
-  int last_accepted_ = -1000;   ///< Keyframe of the last closed loop.
-  int last_optimized_ = -1000;  ///< Newest keyframe when the graph was optimized last.
+  int last_accepted_ = kLongAgo;   ///< Keyframe of the last closed loop.
+  int last_optimized_ = kLongAgo;  ///< Newest keyframe when the graph was optimized last, whether it worked or not.
   int optimizations_ = 0;
+  std::string graph_failure_;
   std::size_t loops_in_graph_ = 0;  ///< Those that the corrected poses take account of.
   StageTimes times_;
 };

@@ -25,17 +25,17 @@ std::shared_ptr<const Vocabulary> vocabulary() {
 }
 
 /// What the tests depend on.
-LoopCloserSettings settings() {
-  LoopCloserSettings s;
+LoopSettings settings() {
+  LoopSettings s;
   s.detection.min_gap = 10;
   s.detection.excluded_hops = 2;
   s.detection.min_score = 0.02;
-  s.verification.min_inliers = 20;
-  s.verification.min_depth_inliers = 10;
-  s.verification.min_covered_cells = 0.2;
+  s.min_inliers = 20;
+  s.min_depth_inliers = 10;
+  s.min_covered_cells = 0.2;
   s.max_drift = 0.15;
-  s.max_drift_deg = 30;
-  s.max_drift_log_scale = 1.5;
+  s.drift.max_rotation_deg = 30;
+  s.drift.max_log_scale = 1.5;
   return s;
 }
 
@@ -260,12 +260,12 @@ TEST(LoopCloserTest, TwoRoomsOfTheSameMakeAreTwo) {
 TEST(LoopCloserTest, TheOdometryIsNotTurnedOrScaledAtWill) {
   const Drive drive = circle_drive(50, 14);
   for (const bool by_scale : {false, true}) {
-    LoopCloserSettings strict = settings();
+    LoopSettings strict = settings();
     strict.max_drift = 1;
     if (by_scale) {
-      strict.max_drift_log_scale = 0.05;
+      strict.drift.max_log_scale = 0.05;
     } else {
-      strict.max_drift_deg = 2;
+      strict.drift.max_rotation_deg = 2;
     }
     LoopCloser closer(vocabulary(), strict);
     for (int i = 0; i < drive.size(); ++i) closer.add(drive.updates[i], drive.features[i], loop_test::camera());
@@ -327,6 +327,22 @@ TEST(LoopCloserTest, CovariancesThatAreNone) {
       expect_finite(drive, closed(drive));
     }
   }
+}
+
+/// The solver gives up if a residual is far beyond all that means something: here of a link, beside the chain, that
+/// pretends to know everything and is wrong.
+TEST(LoopCloserTest, AnOptimizationThatFailsIsNotDone) {
+  Drive drive = circle_drive(52, 1);
+  KeyframeConstraint& beside_the_chain = drive.updates[25].constraints.back();
+  ASSERT_GT(beside_the_chain.keyframe_id, drive.updates[26].frame_id);
+  beside_the_chain.T_this_other.translation()[0] += 0.1;
+  beside_the_chain.covariance = 1e-150 * Matrix7d::Identity();
+  LoopCloser closer = closed(drive);
+  ASSERT_GT(accepted_loops(closer), 0);
+  EXPECT_EQ(closer.optimizations(), 0);
+  EXPECT_FALSE(closer.graph_failure().empty());
+  expect_poses_of_odometry(drive, closer);
+  EXPECT_TRUE(closed(circle_drive(52, 1)).graph_failure().empty());
 }
 
 TEST(LoopCloserTest, AfterARestart) {

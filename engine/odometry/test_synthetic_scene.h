@@ -148,21 +148,7 @@ inline Window empty_window(const PinholeIntrinsics& camera) {
 /// Appends a keyframe; existing points get a residual into it.
 inline Keyframe& add_keyframe(Window& window, std::shared_ptr<const PreparedFrame> frame, const SE3d& T_c_w,
                               const Brightness& brightness = {}) {
-  auto keyframe = std::make_unique<Keyframe>();
-  keyframe->frame = std::move(frame);
-  keyframe->state = {T_c_w, brightness, FrameVector::Zero()};
-  for (auto& host : window.keyframes) {
-    for (ActivePoint& point : host->points) {
-      point.newest_states = {ResidualState::kInlier, point.newest_states[0]};
-      PointResidual residual;
-      residual.target = keyframe.get();
-      point.residuals.push_back(residual);
-    }
-  }
-  window.keyframes.push_back(std::move(keyframe));
-  window.renumber();
-  window.prior.append(kFrameDof);
-  return *window.keyframes.back();
+  return window.append(std::move(frame), T_c_w, brightness);
 }
 
 /// Adds points of true inverse depth on a grid, with residuals into all other keyframes.

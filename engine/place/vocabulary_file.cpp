@@ -6,6 +6,7 @@
 #include "ldso/error.h"
 #include "place/dbow_vocabulary_file.h"
 #include "place/vocabulary_reader.h"
+#include "util/hash.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -16,10 +17,10 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kChecksumSize = 8;
 
-std::uint64_t fnv1a(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
-  return hash;
+std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {
+  Checksum checksum;
+  for (const std::uint8_t byte : bytes) checksum.add(byte);
+  return checksum.value();
 }
 
 bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
@@ -53,7 +54,7 @@ Vocabulary parse_own(std::span<const std::uint8_t> bytes, const std::string& nam
   if (node_count == 0 || reader.left() < expected) reader.fail("the file is truncated");
   if (reader.left() > expected) reader.fail("there is something behind its end");
   VocabularyReader checksum(bytes.last(kChecksumSize), name);
-  if (checksum.get<std::uint64_t>() != fnv1a(bytes.first(bytes.size() - kChecksumSize)))
+  if (checksum.get<std::uint64_t>() != checksum_of(bytes.first(bytes.size() - kChecksumSize)))
     reader.fail("the file is damaged (its checksum is wrong)");
 
   const auto origin = reader.get_bytes(origin_size);
@@ -109,7 +110,7 @@ std::vector<std::uint8_t> vocabulary_bytes(const Vocabulary& vocabulary) {
     for (const std::uint64_t word : vocabulary.descriptor(node).bits) out.put(word);
   }
   for (WordId word = 0; word < vocabulary.word_count(); ++word) out.put(vocabulary.weight(word));
-  out.put(fnv1a(out.bytes()));
+  out.put(checksum_of(out.bytes()));
   return out.take();
 }
 

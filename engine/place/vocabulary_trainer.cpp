@@ -7,6 +7,7 @@
 
 #include "ldso/error.h"
 #include "place/k_majority.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
@@ -23,13 +24,8 @@ struct TreeNode {
   Range range;  ///< Its training descriptors.
 };
 
-/// SplitMix64: a node's seed depends on its place in the tree alone.
-std::uint64_t node_seed(std::uint64_t seed, std::uint64_t node) {
-  std::uint64_t value = seed * 0x9e3779b97f4a7c15ULL + node;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
-  return value ^ (value >> 31);
-}
+/// A node's seed depends on its place in the tree alone.
+std::uint64_t node_seed(std::uint64_t seed, std::uint64_t node) { return splitmix_output(seed * kSplitMixStep + node); }
 
 class Trainer {
  public:

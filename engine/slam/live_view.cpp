@@ -81,7 +81,9 @@ LiveView make_live_view(const Window& window, const FrameRecord& record, std::sh
     shown.T_world_camera = keyframe->state.T_c_w().inverse();
     shown.readout = window.readout(*keyframe);
     shown.points.reserve(keyframe->points.size());
-    for (const ActivePoint& point : keyframe->points) shown.points.push_back(make_map_point(point));
+    for (const ActivePoint& point : keyframe->points) {
+      shown.points.push_back(make_map_point(point, window.residual_variance()));
+    }
   }
   view.T_world_camera = pose_in_world(window, record);
   if (view.T_world_camera) {

@@ -10,23 +10,6 @@
 namespace ldso {
 namespace {
 
-/// Keyframes that may wait with their images.
-constexpr std::size_t kMostWaiting = 16;
-/// Age of the correction that is handed back, in keyframes: by then it is known without waiting.
-constexpr std::size_t kCorrectionLag = 8;
-
-LoopCloserSettings closer_settings(const LoopSettings& settings) {
-  LoopCloserSettings result;
-  result.detection.max_candidates = settings.max_candidates;
-  result.spacing = settings.spacing;
-  result.verification.min_inliers = settings.min_inliers;
-  result.verification.min_depth_inliers = settings.min_depth_inliers;
-  result.verification.min_seen_share = settings.min_seen_share;
-  result.verification.min_covered_cells = settings.min_covered_cells;
-  result.max_drift = settings.max_drift;
-  return result;
-}
-
 std::shared_ptr<const Vocabulary> read_given(const LoopSettings& settings) {
   if (settings.vocabulary.empty()) return nullptr;
   return std::make_shared<const Vocabulary>(read_vocabulary(settings.vocabulary));
@@ -36,9 +19,11 @@ std::shared_ptr<const Vocabulary> read_given(const LoopSettings& settings) {
 
 LoopThread::LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
     : log_(std::move(log)),
-      settings_(closer_settings(settings)),
+      settings_(settings),
+      correction_lag_(static_cast<std::size_t>(settings.correction_lag)),
+      max_waiting_(static_cast<std::size_t>(settings.max_waiting)),
       vocabulary_(read_given(settings)),
-      queue_(kMostWaiting),
+      queue_(max_waiting_),
       observer_(std::move(observer)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
@@ -47,26 +32,26 @@ LoopThread::~LoopThread() {
   queue_.close();
 }
 
-void LoopThread::add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera) {
+void LoopThread::add(FinishedKeyframe keyframe) {
   {
     const std::lock_guard lock(mutex_);
     ++added_;
   }
-  queue_.push({std::move(keyframe), camera});
+  queue_.push(std::move(keyframe));
 }
 
 void LoopThread::publish(const Sim3d& correction) {
   const std::lock_guard lock(mutex_);
   ++done_;
   corrections_.push_back(correction);
-  if (corrections_.size() > kCorrectionLag + kMostWaiting) corrections_.pop_front();
+  if (corrections_.size() > correction_lag_ + max_waiting_) corrections_.pop_front();
   published_.notify_all();
 }
 
 Sim3d LoopThread::correction() {
   std::unique_lock lock(mutex_);
-  if (added_ <= kCorrectionLag) return Sim3d();
-  const std::size_t wanted = added_ - kCorrectionLag;
+  if (added_ <= correction_lag_) return Sim3d();
+  const std::size_t wanted = added_ - correction_lag_;
   published_.wait(lock, [&] { return done_ >= wanted || ended_; });
   if (done_ < wanted) return corrections_.empty() ? Sim3d() : corrections_.back();  // It failed: that is the last one.
   const std::size_t back = done_ - wanted;
@@ -76,16 +61,18 @@ Sim3d LoopThread::correction() {
 void LoopThread::process(const std::stop_token& stop) {
   if (!vocabulary_) vocabulary_ = std::make_shared<const Vocabulary>(default_vocabulary());
   closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
-  while (std::optional<Item> item = queue_.pop()) {
+  while (const std::optional<FinishedKeyframe> keyframe = queue_.pop()) {
     if (stop.stop_requested()) return;
-    const FinishedKeyframe& keyframe = item->keyframe;
-    closer_->add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), item->camera);
+    closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->camera);
     publish(closer_->correction());
     tell();
   }
   if (stop.stop_requested()) return;
   closer_->finish();
   if (closer_->optimizations() > optimizations_told_) tell();
+  if (!closer_->graph_failure().empty()) {
+    log_to(log_, LogLevel::kWarning, "the last loops move no keyframe: " + closer_->graph_failure());
+  }
 }
 
 void LoopThread::tell() {

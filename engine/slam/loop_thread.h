@@ -33,7 +33,7 @@ class LoopThread {
   LoopThread& operator=(const LoopThread&) = delete;
 
   /// Hands a keyframe over; waits only if many are queued already.
-  void add(FinishedKeyframe keyframe, const PinholeIntrinsics& camera);
+  void add(FinishedKeyframe keyframe);
 
   /// From the odometry's world to the corrected one, as known a fixed number of keyframes ago: waits for that if need
   /// be, so that the same run says the same. The identity as long as no loop is closed; after a failure the last one.
@@ -44,10 +44,6 @@ class LoopThread {
   const LoopCloser* finish();
 
  private:
-  struct Item {
-    FinishedKeyframe keyframe;
-    PinholeIntrinsics camera;
-  };
   void work(const std::stop_token& stop);
   void process(const std::stop_token& stop);
   /// Tells the observer what has changed since it was told last.
@@ -56,9 +52,10 @@ class LoopThread {
   void publish(const Sim3d& correction);
 
   LogSink log_;
-  LoopCloserSettings settings_;
+  LoopSettings settings_;
+  std::size_t correction_lag_, max_waiting_;      ///< [keyframes]
   std::shared_ptr<const Vocabulary> vocabulary_;  ///< None: the built-in one.
-  BoundedQueue<Item> queue_;
+  BoundedQueue<FinishedKeyframe> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.
   bool failed_ = false;
   std::shared_ptr<RunObserver> observer_;  ///< With the next two of the thread's own.

@@ -67,6 +67,7 @@ std::vector<FinishedKeyframe> there_and_back() {
     poses.push_back(T);
     FinishedKeyframe keyframe;
     keyframe.frame = frame_of(10 * i, place);
+    keyframe.camera = camera();
     const Image<Texel>& image = keyframe.frame->pyramid.levels.front();
     keyframe.corners = corners_of(image);
     keyframe.update.frame_id = 10 * i;
@@ -91,7 +92,7 @@ std::vector<FinishedKeyframe> there_and_back() {
   return keyframes;
 }
 
-/// The same for both.
+/// Of the thread and of the closer that it is compared with.
 LoopSettings loop_settings() {
   LoopSettings s;
   s.max_candidates = 2;
@@ -101,19 +102,6 @@ LoopSettings loop_settings() {
   s.min_seen_share = 0.2;
   s.min_covered_cells = 0.15;
   s.max_drift = 0.2;
-  return s;
-}
-
-LoopCloserSettings closer_settings() {
-  const LoopSettings given = loop_settings();
-  LoopCloserSettings s;
-  s.detection.max_candidates = given.max_candidates;
-  s.spacing = given.spacing;
-  s.verification.min_inliers = given.min_inliers;
-  s.verification.min_depth_inliers = given.min_depth_inliers;
-  s.verification.min_seen_share = given.min_seen_share;
-  s.verification.min_covered_cells = given.min_covered_cells;
-  s.max_drift = given.max_drift;
   return s;
 }
 
@@ -130,9 +118,9 @@ std::vector<FinishedKeyframe> LoopThreadTest::keyframes_;
 TEST_F(LoopThreadTest, GivesWhatLoopCloserGives) {
   std::vector<std::string> log;
   LoopThread thread(loop_settings(), [&](LogLevel, const std::string& message) { log.push_back(message); });
-  LoopCloser closer(std::make_shared<const Vocabulary>(default_vocabulary()), closer_settings());
+  LoopCloser closer(std::make_shared<const Vocabulary>(default_vocabulary()), loop_settings());
   for (const FinishedKeyframe& keyframe : keyframes_) {
-    thread.add(keyframe, camera());
+    thread.add(keyframe);
     closer.add(keyframe.update, keyframe.corners, keyframe.frame->pyramid.levels.front(), camera());
   }
   closer.finish();
@@ -167,7 +155,7 @@ TEST_F(LoopThreadTest, CorrectionsDoNotDependOnTime) {
   for (std::vector<Sim3d>& of_run : corrections) {
     LoopThread thread(loop_settings(), {});
     for (const FinishedKeyframe& keyframe : keyframes_) {
-      thread.add(keyframe, camera());
+      thread.add(keyframe);
       if (keyframe.update.frame_id % 3 == 0) of_run.push_back(thread.correction());
     }
     ASSERT_NE(thread.finish(), nullptr);
@@ -196,11 +184,11 @@ TEST_F(LoopThreadTest, AFailureEndsLoopClosingOnly) {
   std::vector<std::pair<LogLevel, std::string>> log;
   LoopThread thread(LoopSettings{},
                     [&](LogLevel level, const std::string& message) { log.emplace_back(level, message); });
-  thread.add(keyframes_[0], camera());
-  thread.add(keyframes_[0], camera());  // A frame id that is there.
+  thread.add(keyframes_[0]);
+  thread.add(keyframes_[0]);  // A frame id that is there.
   // Far more than may wait: whoever adds them does not notice.
   for (int round = 0; round < 4; ++round) {
-    for (const FinishedKeyframe& keyframe : keyframes_) thread.add(keyframe, camera());
+    for (const FinishedKeyframe& keyframe : keyframes_) thread.add(keyframe);
   }
   EXPECT_TRUE(thread.correction().matrix().isIdentity());
   EXPECT_EQ(thread.finish(), nullptr);
@@ -212,8 +200,8 @@ TEST_F(LoopThreadTest, AFailureEndsLoopClosingOnly) {
 
 TEST_F(LoopThreadTest, AFailureWithoutALog) {
   LoopThread thread(LoopSettings{}, {});
-  thread.add(keyframes_[0], camera());
-  thread.add(keyframes_[0], camera());
+  thread.add(keyframes_[0]);
+  thread.add(keyframes_[0]);
   EXPECT_EQ(thread.finish(), nullptr);
 }
 
@@ -222,8 +210,8 @@ TEST_F(LoopThreadTest, AnEndWithoutFinishDropsWhatWaits) {
   std::vector<std::string> log;
   {
     LoopThread thread(LoopSettings{}, [&](LogLevel, const std::string& message) { log.push_back(message); });
-    for (int i = 0; i < 14; ++i) thread.add(keyframes_[i], camera());
-    thread.add(keyframes_[0], camera());  // Would be heard of: the frame id is there.
+    for (int i = 0; i < 14; ++i) thread.add(keyframes_[i]);
+    thread.add(keyframes_[0]);  // Would be heard of: the frame id is there.
   }
   EXPECT_TRUE(log.empty());
 }
@@ -232,10 +220,10 @@ TEST_F(LoopThreadTest, MayEndWithoutFinish) {
   { const LoopThread idle(LoopSettings{}, {}); }
   {
     LoopThread thread(LoopSettings{}, {});
-    for (int i = 0; i < 3; ++i) thread.add(keyframes_[i], camera());
+    for (int i = 0; i < 3; ++i) thread.add(keyframes_[i]);
   }
   LoopThread failed(LoopSettings{}, {});
-  for (int i = 0; i < 3; ++i) failed.add(keyframes_[0], camera());
+  for (int i = 0; i < 3; ++i) failed.add(keyframes_[0]);
 }
 
 }  // namespace

@@ -73,10 +73,10 @@ void Pipeline::tell(const OdometryOutput& output, const std::shared_ptr<const Pr
 }
 
 void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
-  if (observer_) observer_->on_keyframe(keyframe.update, odometry_.window().intrinsics());
+  if (observer_) observer_->on_keyframe(keyframe.update, keyframe.camera);
   result_.keyframes.push_back(loops_ ? keyframe.update : std::move(keyframe.update));
   result_.keyframes.back().constraints.clear();
-  if (loops_) loops_->add(std::move(keyframe), odometry_.window().intrinsics());
+  if (loops_) loops_->add(std::move(keyframe));
 }
 
 void Pipeline::close_loops() {
@@ -151,13 +151,7 @@ SlamResult Pipeline::finish() {
   for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) finish_keyframe(std::move(keyframe));
   std::stable_sort(result_.keyframes.begin(), result_.keyframes.end(),
                    [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
-  if (!odometry_.window().keyframes.empty()) {
-    const auto& camera = odometry_.window().camera;
-    result_.camera.fx = camera[0];
-    result_.camera.fy = camera[1];
-    result_.camera.cx = camera[2];
-    result_.camera.cy = camera[3];
-  }
+  result_.camera = odometry_.camera();
   result_.restarts = odometry_.restarts();
   close_loops();
   add_times(times_, result_.stage_times);

@@ -8,10 +8,13 @@
 namespace ldso {
 namespace {
 
+/// Of the grid of pixels at which two lenses are compared, in each direction.
 constexpr int kGridSteps = 8;
-/// Beyond these the estimate is no improvement of a calibration but a sign that something else is wrong.
+/// A change of the focal lengths by a larger share improves no calibration: something else is wrong.
 constexpr double kLargestFocalChange = 0.2;
+/// Nor does a larger change of the first distortion coefficient.
 constexpr double kLargestRadialChange = 0.5;
+/// No camera reads an image for longer [ms].
 constexpr double kLongestReadoutMs = 100;
 
 bool is_plausible(const CameraCalibration& from, const LensEstimate& to) {

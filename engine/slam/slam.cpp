@@ -23,6 +23,9 @@ struct Slam::Impl {
 
 namespace {
 
+/// 65535 is as bright as 255.
+constexpr float k16BitPerGreyLevel = 257.0f;
+
 template <class T>
 Image<float> to_grey(ImageView<const T> image, float to_grey_levels) {
   Image<float> grey(image.width, image.height);
@@ -43,6 +46,7 @@ FrameRecord Slam::Impl::process(ImageView<const T> image, float to_grey_levels, 
   if (finished) throw Error(name, "the run has been finished", "make a new Slam for another run");
   if (!std::isfinite(timestamp)) throw Error(name, "its timestamp is not finite", "give seconds");
   if (image.data == nullptr) throw Error(name, "it has no pixels", "pass an image of the calibration's size");
+  pipeline.preprocessor().check_size(name, image.width, image.height);
   RawFrame raw;
   raw.id = next_id;
   raw.timestamp = timestamp;
@@ -64,26 +68,31 @@ Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
 
+Slam::Impl& Slam::impl() const {
+  if (!impl_) throw Error("Slam", "it has been moved from", "use the object it was moved to");
+  return *impl_;
+}
+
 FrameRecord Slam::process(ImageView<const std::uint8_t> image, double timestamp, std::optional<double> exposure_ms) {
-  return impl_->process(image, 1.0f, timestamp, exposure_ms);
+  return impl().process(image, 1.0f, timestamp, exposure_ms);
 }
 
 FrameRecord Slam::process(ImageView<const std::uint16_t> image, double timestamp, std::optional<double> exposure_ms) {
-  return impl_->process(image, 1.0f / 257.0f, timestamp, exposure_ms);
+  return impl().process(image, 1.0f / k16BitPerGreyLevel, timestamp, exposure_ms);
 }
 
 FrameRecord Slam::process(ImageView<const float> image, double timestamp, std::optional<double> exposure_ms) {
-  return impl_->process(image, 1.0f, timestamp, exposure_ms);
+  return impl().process(image, 1.0f, timestamp, exposure_ms);
 }
 
-std::optional<SE3d> Slam::T_world_camera() const { return impl_->pipeline.T_world_camera(); }
+std::optional<SE3d> Slam::T_world_camera() const { return impl().pipeline.T_world_camera(); }
 
-PinholeIntrinsics Slam::rectified_camera() const { return impl_->pipeline.preprocessor().output_camera(); }
+PinholeIntrinsics Slam::rectified_camera() const { return impl().pipeline.preprocessor().output_camera(); }
 
 SlamResult Slam::finish() {
-  if (impl_->finished) throw Error("Slam::finish", "the run has been finished before", "keep its first result");
-  impl_->finished = true;
-  return impl_->pipeline.finish();
+  if (impl().finished) throw Error("Slam::finish", "the run has been finished before", "keep its first result");
+  impl().finished = true;
+  return impl().pipeline.finish();
 }
 
 }  // namespace ldso

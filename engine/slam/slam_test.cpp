@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ldso/error.h"
@@ -158,6 +159,29 @@ TEST(Slam, ARefusedFrameChangesNothing) {
     slam.process(draw_scene(i).view(), 0.1 * i);
   }
   expect_equal(slam.finish(), run(Settings{}));
+}
+
+/// The size that is claimed is checked before so much is allocated.
+TEST(Slam, AWrongSizeIsRefusedBeforeAnythingIsDoneWithTheImage) {
+  Slam slam(scene_calibration(), Settings{});
+  const std::uint8_t pixel = 0;
+  for (const auto& [width, height] : {std::pair{1 << 30, 1 << 30}, {-1, -1}, {0, 0}}) {
+    const ImageView<const std::uint8_t> claimed{&pixel, width, height, width};
+    const std::string error = error_of([&] { slam.process(claimed, 0); });
+    EXPECT_NE(error.find("frame 0: the image has"), std::string::npos) << error;
+  }
+}
+
+TEST(Slam, OneThatWasMovedFromSaysSo) {
+  Slam slam(scene_calibration(), Settings{});
+  Slam other = std::move(slam);
+  EXPECT_NE(error_of([&] { slam.process(draw_scene(0).view(), 0); }).find("moved"), std::string::npos);
+  EXPECT_NE(error_of([&] { slam.T_world_camera(); }).find("moved"), std::string::npos);
+  EXPECT_NE(error_of([&] { slam.rectified_camera(); }).find("moved"), std::string::npos);
+  EXPECT_NE(error_of([&] { slam.finish(); }).find("moved"), std::string::npos);
+  other.process(draw_scene(0).view(), 0);
+  slam = std::move(other);
+  EXPECT_EQ(slam.finish().frames.size(), 1u);
 }
 
 TEST(Slam, AnExposureThatIsNoTimeCountsAsUnknown) {

@@ -34,7 +34,7 @@ struct FrameRecord {
 struct MapPoint {
   float u = 0, v = 0;       ///< Pixel in the host keyframe (rectified image), where it is seen.
   float idepth = 0;         ///< Inverse depth in the host [1 / map unit].
-  float idepth_stddev = 0;  ///< Standard deviation of the inverse depth.
+  float idepth_stddev = 0;  ///< Standard deviation of the inverse depth, but for errors of the keyframes' poses.
   float intensity = 0;      ///< Irradiance of the host pixel, 0..255.
   bool is_corner = false;
 };

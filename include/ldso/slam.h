@@ -87,6 +87,7 @@ class Slam {
   Slam(const Calibration& calibration, const Settings& settings, LogSink log = {},
        std::shared_ptr<RunObserver> observer = {});
   ~Slam();
+  /// One that was moved from can be assigned to and destroyed; all else throws Error.
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;
   Slam(const Slam&) = delete;
@@ -112,7 +113,8 @@ class Slam {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Impl& impl() const;
+  std::unique_ptr<Impl> impl_;  ///< None once it was moved from.
 };
 
 }  // namespace ldso

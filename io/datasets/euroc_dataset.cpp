@@ -1,9 +1,7 @@
 #include "io/datasets/euroc_dataset.h"
 
-#include <yaml-cpp/yaml.h>
-
+#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <system_error>
@@ -12,6 +10,7 @@
 
 #include "io/datasets/sequence_dataset.h"
 #include "io/text/text_file.h"
+#include "io/text/yaml_node.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "util/whole_file.h"
@@ -31,62 +30,37 @@ fs::path mav_folder(const fs::path& folder) {
   return fs::is_directory(folder / "mav0", error) ? folder / "mav0" : folder;
 }
 
-/// OpenCV writes its files with the header "%YAML:1.0", which is not YAML.
-YAML::Node load_yaml(const fs::path& path) {
-  std::string text = read_file(path);
-  if (text.starts_with("%YAML")) text.insert(0, "#");
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw Error(path.string() + ":" + std::to_string(error.mark.line + 1), error.msg, "");
-  }
-}
-
-std::vector<double> numbers(const YAML::Node& parent, const std::string& key, std::size_t count, const fs::path& path) {
-  std::vector<double> values;
-  try {
-    values = parent[key].as<std::vector<double>>();
-  } catch (const YAML::Exception&) {
-  }
-  if (values.size() != count) {
-    throw Error(path.string(), "'" + key + "' is missing or not a list of " + std::to_string(count) + " numbers",
-                "see sensor.yaml of the EuRoC data set");
-  }
-  for (const double value : values) {
-    if (!std::isfinite(value)) throw Error(path.string(), "'" + key + "' has a number that is not finite", "");
-  }
-  return values;
-}
-
-CameraModelKind distortion_model(const YAML::Node& yaml, const fs::path& path) {
-  const std::string name = yaml["distortion_model"].as<std::string>("none");
+CameraModelKind distortion_model(const YamlNode& yaml) {
+  if (!yaml.contains("distortion_model")) return CameraModelKind::kPinhole;
+  const YamlNode model = yaml.at("distortion_model");
+  const std::string name = model.scalar();
   if (name == "radial-tangential" || name == "radtan") return CameraModelKind::kRadTan;
   if (name == "equidistant") return CameraModelKind::kKannalaBrandt;
   if (name == "none") return CameraModelKind::kPinhole;
-  throw Error(path.string(), "unknown distortion_model '" + name + "'",
-              "radial-tangential, equidistant and none are known; or give a camera.txt with --calib");
+  model.fail("is '" + name + "'",
+             "radial-tangential, equidistant and none are known; or give a camera.txt with --calib");
 }
 
 EurocCamera read_camera(const fs::path& path) {
-  const YAML::Node yaml = load_yaml(path);
-  if (!yaml.IsMap()) throw Error(path.string(), "is not a sensor description", "see sensor.yaml of the EuRoC data set");
+  const YamlNode yaml = YamlNode::read(path, path.filename().string());
+  if (!yaml.is_map()) yaml.fail("is not a sensor description", "see sensor.yaml of the EuRoC data set");
   EurocCamera result;
   CameraCalibration& camera = result.calibration.camera;
-  camera.model = distortion_model(yaml, path);
-  const std::vector<double> size = numbers(yaml, "resolution", 2, path);
+  camera.model = distortion_model(yaml);
+  const std::vector<double> size = yaml.at("resolution").numbers(2);
   camera.width = static_cast<int>(size[0]);
   camera.height = static_cast<int>(size[1]);
-  const std::vector<double> intrinsics = numbers(yaml, "intrinsics", 4, path);
+  const std::vector<double> intrinsics = yaml.at("intrinsics").numbers(4);
   camera.fx = intrinsics[0];
   camera.fy = intrinsics[1];
   camera.cx = intrinsics[2];
   camera.cy = intrinsics[3];
   if (camera.model != CameraModelKind::kPinhole) {
-    const std::vector<double> distortion = numbers(yaml, "distortion_coefficients", 4, path);
+    const std::vector<double> distortion = yaml.at("distortion_coefficients").numbers(4);
     std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
     result.calibration.rectification.mode = RectificationMode::kCrop;
   }
-  const std::vector<double> T_BS = numbers(yaml["T_BS"], "data", 16, path);
+  const std::vector<double> T_BS = yaml.at("T_BS").at("data").numbers(16);
   result.T_body_camera = SE3d::from_matrix(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(T_BS.data()));
   result.calibration.description = path.string() + ": " + describe(camera, result.calibration.rectification);
   return result;

@@ -50,7 +50,10 @@ TEST(EurocDataset, BadSensorFilesAreErrors) {
   EXPECT_NE(message_for("intrinsics: [1, 2, 3, 4]\n").find("'resolution'"), std::string::npos);
   EXPECT_NE(message_for("resolution: [32, 24]\nintrinsics: [1, 2, 3]\n").find("list of 4 numbers"), std::string::npos);
   EXPECT_NE(message_for("distortion_model: magic\n").find("'magic'"), std::string::npos);
-  EXPECT_NE(message_for("resolution: [32, 24]\nintrinsics: [1, 2, 3, 4]\n").find("'data'"), std::string::npos);
+  EXPECT_NE(message_for("resolution: [32, 24]\nintrinsics: [1, 2, 3, 4]\n").find("'T_BS'"), std::string::npos);
+  const std::string numbers = "resolution: [32, 24]\nintrinsics: [1, 2, 3, 4]\n";
+  EXPECT_NE(message_for(numbers + "T_BS: {rows: 4}\n").find("sensor.yaml:3: 'T_BS' has no 'data'"), std::string::npos);
+  EXPECT_NE(message_for("resolution: [32, nan]\n").find("sensor.yaml:1: 'resolution' is 'nan'"), std::string::npos);
 }
 
 TEST(EurocDataset, BadListOfImagesIsAnError) {

@@ -1,41 +1,23 @@
 #include "ldso/io/settings_file.h"
-#include "io/settings/settings_json.h"
 
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <concepts>
+#include <set>
 #include <system_error>
 #include <type_traits>
 #include <utility>
 
+#include "io/settings/setting_text.h"
 #include "io/text/nearest_name.h"
 #include "io/text/text_file.h"
+#include "io/text/yaml_node.h"
 #include "ldso/error.h"
+#include "settings/setting_range.h"
 #include "util/whole_file.h"
 
 namespace ldso {
 namespace {
-
-struct IgnoreField {
-  template <class Value>
-  void operator()(const char* /*name*/, Value& /*value*/) const {}
-};
-
-/// A type that lists fields of its own.
-template <class T>
-concept Group = requires(T& group) {
-  T::visit_fields(group, IgnoreField{});
-};
-
-constexpr std::array<std::pair<SelectionStrategy, const char*>, 3> kStrategies{{
-    {SelectionStrategy::kCorners, "corners"},
-    {SelectionStrategy::kGradient, "gradient"},
-    {SelectionStrategy::kRandom, "random"},
-}};
 
 // Text to value; `where` is what a complaint begins with.
 
@@ -59,188 +41,136 @@ void parse_value(const std::string& where, const std::string& text, Integer& val
   value = parsed;
 }
 
-template <std::floating_point Real>
-void parse_value(const std::string& where, const std::string& text, Real& value) {
+void parse_value(const std::string& where, const std::string& text, double& value) {
   double parsed = 0;
   if (!parse_number(text, parsed) || !std::isfinite(parsed)) reject(where, text, "a finite number is expected");
-  value = static_cast<Real>(parsed);
+  value = parsed;
 }
 
-template <std::same_as<std::string> Text>
-void parse_value(const std::string& /*where*/, const std::string& text, Text& value) {
-  value = text;
-}
+void parse_value(const std::string& /*where*/, const std::string& text, std::string& value) { value = text; }
 
-void parse_value(const std::string& where, const std::string& text, SelectionStrategy& value) {
-  for (const auto& [strategy, name] : kStrategies) {
-    if (to_lower(text) != name) continue;
-    value = strategy;
+template <SettingChoice Choice>
+void parse_value(const std::string& where, const std::string& text, Choice& value) {
+  for (const auto& [choice, word] : choices(value)) {
+    if (to_lower(text) != word) continue;
+    value = choice;
     return;
   }
-  reject(where, text, "corners, gradient or random is expected");
+  reject(where, text, choice_text<Choice>() + " is expected");
 }
 
-// Value to text and JSON.
+/// As above, held to the setting's range.
+template <class Value>
+void parse_setting(const std::string& where, const std::string& text, const SettingInfo& info, Value& value) {
+  Value parsed = value;
+  parse_value(where, text, parsed);
+  if constexpr (SettingNumber<Value>) check_range(where, static_cast<double>(parsed), info);
+  value = parsed;
+}
 
-const char* name_of(SelectionStrategy value) {
-  for (const auto& [strategy, name] : kStrategies) {
-    if (strategy == value) return name;
+// Keys.
+
+/// Calls act(value, info) for the group's field of this name; false if there is none.
+template <class Group, class Act>
+bool with_field(Group& group, const std::string& name, const Act& act) {
+  bool found = false;
+  for_each_field(group, [&](auto& value, const SettingInfo& info) {
+    if (info.name != name) return;
+    found = true;
+    act(value, info);
+  });
+  return found;
+}
+
+std::string last_word(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+/// Keys of all settings and of the groups that they are in.
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys = setting_keys();
+  std::set<std::string> groups;
+  for (const std::string& key : keys) {
+    for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1))
+      groups.insert(key.substr(0, dot));
   }
-  return "unknown";
+  keys.insert(keys.end(), groups.begin(), groups.end());
+  return keys;
 }
 
-template <class T>
-nlohmann::json to_json_value(const T& value) {
-  if constexpr (std::is_same_v<T, SelectionStrategy>) {
-    return name_of(value);
+/// The key that is most like an unknown one: of those with its last word, or else of all. (Who knows the name may not
+/// know the group.)
+std::string nearest_key(const std::string& key) {
+  const std::vector<std::string> all = known_keys();
+  std::vector<std::string> likely;
+  for (const std::string& known : all) {
+    if (last_word(known) == last_word(key)) likely.push_back(known);
+  }
+  return nearest_name(key, likely.empty() ? all : likely);
+}
+
+[[noreturn]] void reject_key(const std::string& where, const std::string& key) {
+  throw Error(where, "unknown setting '" + key + "'", "did you mean '" + nearest_key(key) + "'?");
+}
+
+template <class Group>
+void read_group(const YamlNode& node, const std::string& prefix, Group& group);
+
+/// Of a key of one group: a setting or a group of them.
+template <class Value>
+void read_field(const YamlNode& node, const std::string& key, const SettingInfo& info, Value& value) {
+  if constexpr (SettingGroup<Value>) {
+    read_group(node, key + ".", value);
   } else {
-    return value;
+    if (!node.is_scalar()) throw Error(node.where(), "'" + key + "' has no single value", "expected `name: value`");
+    parse_setting(node.where() + ": " + key, node.scalar(), info, value);
   }
 }
 
-template <class T>
-std::string to_text(const T& value) {
-  if constexpr (std::is_floating_point_v<T>) {
-    std::array<char, 64> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return std::string(buffer.data(), end);  // The shortest text that reads back as the same number.
-  } else if constexpr (std::is_same_v<T, bool>) {
-    return value ? "true" : "false";
-  } else if constexpr (std::is_same_v<T, SelectionStrategy>) {
-    return name_of(value);
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    return nlohmann::json(value).dump();  // A JSON string is a YAML string.
-  } else {
-    return std::to_string(value);
+template <class Group>
+void read_group(const YamlNode& node, const std::string& prefix, Group& group) {
+  if (!node.is_map()) throw Error(node.where(), "'" + prefix + "' is not a group", "settings are lines `name: value`");
+  for (const auto& [name, entry] : node.entries()) {
+    const std::string key = prefix + name;
+    const bool known = with_field(
+        group, name, [&, &at = entry](auto& value, const SettingInfo& info) { read_field(at, key, info, value); });
+    if (!known) reject_key(entry.where(), key);
   }
 }
 
-template <class T>
-std::vector<std::string> field_names(T& group) {
-  std::vector<std::string> names;
-  T::visit_fields(group, [&](const char* name, auto& /*value*/) { names.emplace_back(name); });
-  return names;
-}
-
-template <class T>
-[[noreturn]] void reject_key(const std::string& where, const std::string& prefix, const std::string& key, T& group) {
-  const std::string nearest = nearest_name(key, field_names(group));
-  throw Error(where, "unknown setting '" + prefix + key + "'", "did you mean '" + prefix + nearest + "'?");
-}
-
-class YamlReader {
- public:
-  explicit YamlReader(const std::filesystem::path& path) : path_(path) {}
-
-  template <class T>
-  void read_group(const YAML::Node& node, const std::string& prefix, T& group) const {
-    if (!node.IsMap()) throw Error(where(node), "'" + prefix + "' is not a group", "settings are lines `name: value`");
-    std::vector<std::string> seen;
-    for (const auto& entry : node) {
-      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-      if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-        throw Error(where(entry.first), std::string("'").append(prefix).append(key).append("' is set twice"),
-                    "remove one of the lines");
-      }
-      seen.push_back(key);
-      bool known = false;
-      T::visit_fields(group, [&](const char* name, auto& value) {
-        if (key != name) return;
-        known = true;
-        read_field(entry.second, prefix + key, value);
-      });
-      if (!known) reject_key(where(entry.first), prefix, key, group);
-    }
-  }
-
- private:
-  template <class T>
-  void read_field(const YAML::Node& node, const std::string& key, T& value) const {
-    if constexpr (Group<T>) {
-      read_group(node, key + ".", value);
-    } else {
-      if (!node.IsScalar()) throw Error(where(node), "'" + key + "' has no single value", "expected `name: value`");
-      parse_value(where(node) + ": " + key, node.Scalar(), value);
-    }
-  }
-
-  std::string where(const YAML::Node& node) const {
-    return path_.string() + ":" + std::to_string(node.Mark().line + 1);
-  }
-
-  std::filesystem::path path_;
-};
-
-template <class T>
-void set_field(T& group, const std::string& prefix, const std::string& rest, const std::string& text) {
+template <class Group>
+void set_field(Group& group, const std::string& prefix, const std::string& rest, const std::string& text) {
   const std::size_t dot = rest.find('.');
-  const std::string head = rest.substr(0, dot);
-  const std::string tail = dot == std::string::npos ? "" : rest.substr(dot + 1);
-  bool known = false;
-  T::visit_fields(group, [&](const char* name, auto& value) {
-    if (head != name) return;
-    known = true;
-    using Value = std::remove_cvref_t<decltype(value)>;
-    if constexpr (Group<Value>) {
-      if (tail.empty())
-        throw Error(prefix + head, "is a group of settings", "name one of them: " + prefix + head + ".name");
-      set_field(value, prefix + head + ".", tail, text);
+  const std::string key = prefix + rest.substr(0, dot), tail = dot == std::string::npos ? "" : rest.substr(dot + 1);
+  const bool known = with_field(group, rest.substr(0, dot), [&](auto& value, const SettingInfo& info) {
+    if constexpr (SettingGroup<std::remove_cvref_t<decltype(value)>>) {
+      if (tail.empty()) throw Error(key, "is a group of settings", "name one of them: " + key + ".name");
+      set_field(value, key + ".", tail, text);
     } else {
-      if (!tail.empty()) throw Error(prefix + rest, "'" + prefix + head + "' is no group of settings", "");
-      parse_value(prefix + head, text, value);
+      if (!tail.empty()) throw Error(prefix + rest, "'" + key + "' is no group of settings", "");
+      parse_setting("setting " + key, text, info, value);
     }
   });
-  if (!known) reject_key("settings", prefix, head, group);
+  if (!known) reject_key("settings", prefix + rest);
 }
 
-/// Calls visit(dotted key, value) for every setting that is no group.
-template <class T, class Visitor>
-void visit_leaves(T& group, const std::string& prefix, Visitor& visit) {
-  std::remove_const_t<T>::visit_fields(group, [&](const char* name, auto& value) {
-    if constexpr (Group<std::remove_cvref_t<decltype(value)>>) {
-      visit_leaves(value, prefix + name + ".", visit);
-    } else {
-      visit(prefix + name, value);
-    }
-  });
-}
-
-template <class T>
-void write_group(const T& group, const std::string& indent, std::string& text) {
-  T::visit_fields(group, [&](const char* name, const auto& value) {
-    if constexpr (Group<std::remove_cvref_t<decltype(value)>>) {
-      text += indent + name + ":\n";
+template <class Group>
+void write_group(const Group& group, const std::string& indent, std::string& text) {
+  for_each_field(group, [&](const auto& value, const SettingInfo& info) {
+    text.append(indent).append(info.name).append(":");
+    if constexpr (SettingGroup<std::remove_cvref_t<decltype(value)>>) {
+      text += "\n";
       write_group(value, indent + "  ", text);
     } else {
-      text += indent + name + ": " + to_text(value) + "\n";
+      text += " " + setting_text(value) + "\n";
     }
   });
-}
-
-template <class T>
-nlohmann::json group_to_json(const T& group) {
-  nlohmann::json json = nlohmann::json::object();
-  T::visit_fields(group, [&](const char* name, const auto& value) {
-    if constexpr (Group<std::remove_cvref_t<decltype(value)>>) {
-      json[name] = group_to_json(value);
-    } else {
-      json[name] = to_json_value(value);
-    }
-  });
-  return json;
 }
 
 }  // namespace
 
 void read_settings(const std::filesystem::path& path, Settings& settings) {
-  YAML::Node node;
-  try {
-    node = YAML::Load(read_file(path));
-  } catch (const YAML::Exception& error) {
-    throw Error(path.string() + ":" + std::to_string(error.mark.line + 1), error.msg, "YAML is expected");
-  }
+  const YamlNode node = YamlNode::read(path, "the settings");
   Settings changed = settings;  // All or nothing.
-  if (!node.IsNull()) YamlReader(path).read_group(node, "", changed);
+  if (!node.is_null()) read_group(node, "", changed);
   settings = changed;
 }
 
@@ -257,11 +187,9 @@ void set_setting(Settings& settings, const std::string& key, const std::string& 
 std::vector<std::string> setting_keys() {
   const Settings settings;
   std::vector<std::string> keys;
-  auto collect = [&](const std::string& key, const auto& /*value*/) { keys.push_back(key); };
-  visit_leaves(settings, "", collect);
+  for_each_setting(settings,
+                   [&](const std::string& key, const auto& /*value*/, const SettingInfo&) { keys.push_back(key); });
   return keys;
 }
-
-nlohmann::json settings_to_json(const Settings& settings) { return group_to_json(settings); }
 
 }  // namespace ldso

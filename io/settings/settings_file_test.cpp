@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <concepts>
+#include <string>
+#include <type_traits>
 
 #include "io/datasets/test_sequences.h"
+#include "io/settings/setting_text.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -48,6 +51,11 @@ TEST_F(SettingsFile, UnknownKeysNameFileLineAndTheNearestKey) {
             std::string::npos);
   EXPECT_NE(error("thread: 2\n").find("s.yaml:1: unknown setting 'thread'; did you mean 'threads'?"),
             std::string::npos);
+  EXPECT_NE(
+      error("\niterations: 3\n").find("s.yaml:2: unknown setting 'iterations'; did you mean 'window.iterations'?"),
+      std::string::npos);
+  EXPECT_NE(error("loops: {graph: {kernl: 3}}\n").find("did you mean 'loops.graph.kernel'?"), std::string::npos);
+  EXPECT_NE(error("loops: {grahp: {kernel: 3}}\n").find("did you mean 'loops.graph'?"), std::string::npos);
 }
 
 TEST_F(SettingsFile, BadValuesNameFileLineAndKey) {
@@ -70,6 +78,16 @@ TEST_F(SettingsFile, BadValuesNameFileLineAndKey) {
   }
 }
 
+TEST_F(SettingsFile, ValuesOutOfRangeNameFileLineRangeAndUnit) {
+  EXPECT_EQ(error("threads: 1\nselection:\n  corner_radius: 0\n"),
+            (folder_ / "s.yaml").string() + ":3: selection.corner_radius: 0 is out of range; allowed is 1 to 100 px");
+  EXPECT_NE(error("window: {focal_prior: -1}\n").find("allowed is at least 0 1 / px^2"), std::string::npos);
+  Settings settings;
+  EXPECT_EQ(error_of([&] { set_setting(settings, "selection.corner_radius", "101"); }),
+            "setting selection.corner_radius: 101 is out of range; allowed is 1 to 100 px");
+  EXPECT_EQ(settings.selection.corner_radius, Settings().selection.corner_radius);
+}
+
 TEST_F(SettingsFile, ABadFileChangesNothing) {
   write_text(folder_ / "s.yaml", "threads: 7\nbad: 1\n");
   Settings settings;
@@ -89,26 +107,28 @@ TEST_F(SettingsFile, IsReadAsWritten) {
 
 TEST_F(SettingsFile, EveryFieldCanBeSetByItsKey) {
   const nlohmann::json defaults = settings_to_json({});
-  const std::vector<std::string> keys = setting_keys();
-  EXPECT_NE(std::find(keys.begin(), keys.end(), "selection.candidates"), keys.end());
-  for (const std::string& key : keys) {
-    std::string pointer = "/" + key;
-    std::replace(pointer.begin(), pointer.end(), '.', '/');
-    const nlohmann::json& value = defaults.at(nlohmann::json::json_pointer(pointer));
-    const std::string other = value.is_boolean()  ? (value.get<bool>() ? "false" : "true")
-                              : value.is_string() ? "random"
-                                                  : "77";
+  const Settings before;
+  int count = 0;
+  for_each_setting(before, [&](const std::string& key, const auto& value, const SettingInfo& info) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    std::string other = "random";  // A choice or a text.
+    if constexpr (std::same_as<Value, bool>) other = value ? "false" : "true";
+    if constexpr (SettingNumber<Value>) {
+      other = setting_text(static_cast<Value>(static_cast<double>(value) == info.least ? info.least + 1 : info.least));
+    }
     Settings settings;
     set_setting(settings, key, other);
     EXPECT_NE(settings_to_json(settings), defaults) << key;
-  }
+    ++count;
+  });
+  EXPECT_EQ(setting_keys().size(), static_cast<std::size_t>(count));
 }
 
 TEST_F(SettingsFile, BadKeysOnTheCommandLineAreErrors) {
   Settings s;
   EXPECT_NE(error_of([&] { set_setting(s, "selection.sed", "1"); }).find("did you mean 'selection.seed'?"),
             std::string::npos);
-  EXPECT_NE(error_of([&] { set_setting(s, "selektion.seed", "1"); }).find("did you mean 'selection'?"),
+  EXPECT_NE(error_of([&] { set_setting(s, "selektion.seed", "1"); }).find("did you mean 'selection.seed'?"),
             std::string::npos);
   EXPECT_NE(error_of([&] { set_setting(s, "selection", "1"); }).find("is a group"), std::string::npos);
   EXPECT_NE(error_of([&] { set_setting(s, "threads.x", "1"); }).find("no group"), std::string::npos);
@@ -120,6 +140,7 @@ TEST_F(SettingsFile, JsonHasTheGroups) {
   EXPECT_EQ(json["selection"]["candidates"], 1500);
   EXPECT_EQ(json["selection"]["strategy"], "corners");
   EXPECT_EQ(json["photometry"]["use_response"], true);
+  EXPECT_EQ(json["loops"]["sharpening"]["similarity"]["max_iterations"], 5);
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ void add_export_command(CLI::App& app);
 void add_eval_command(CLI::App& app);
 /// `ldso vocab`: trains, converts and describes vocabularies for place recognition.
 void add_vocab_command(CLI::App& app);
+/// `ldso settings`: all settings with defaults, ranges and what they are.
+void add_settings_command(CLI::App& app);
 /// `ldso simulate WORLD -o DIR`: renders a sequence with exact ground truth.
 void add_simulate_command(CLI::App& app);
 

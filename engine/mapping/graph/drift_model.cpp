@@ -10,9 +10,6 @@
 namespace ldso {
 namespace {
 
-constexpr int kRounds = 12;
-constexpr int kSteps = 10;
-constexpr double kMostFactor = 1e8;
 /// Median of chi squared with seven degrees of freedom.
 constexpr double kMedianChi2 = 6.35;
 
@@ -33,7 +30,7 @@ std::vector<LoopDiscrepancy> finite_ones(std::span<const LoopDiscrepancy> discre
 
 /// Maximum likelihood by multiplicative steps that never decrease it (majorization: Zhou, Hu, Zhou, Lange, MM
 /// algorithms for variance components models, JCGS 2019), with one observation a loop.
-void improve_odometry(std::span<const LoopDiscrepancy> discrepancies, VarianceFactors& factors) {
+void improve_odometry(std::span<const LoopDiscrepancy> discrepancies, double max_factor, VarianceFactors& factors) {
   Eigen::Array3d shown = Eigen::Array3d::Zero(), expected = Eigen::Array3d::Zero();
   for (const LoopDiscrepancy& d : discrepancies) {
     const Eigen::LDLT<Matrix7d> solver(total_covariance(d, factors));
@@ -48,17 +45,17 @@ void improve_odometry(std::span<const LoopDiscrepancy> discrepancies, VarianceFa
   for (int k = 0; k < 3; ++k) {
     // Below zero: the covariances are none.
     if (!(expected[k] > 0) || !(shown[k] >= 0) || !std::isfinite(shown[k])) continue;
-    factors.odometry[k] = std::clamp(factors.odometry[k] * std::sqrt(shown[k] / expected[k]), 1.0, kMostFactor);
+    factors.odometry[k] = std::clamp(factors.odometry[k] * std::sqrt(shown[k] / expected[k]), 1.0, max_factor);
   }
 }
 
 /// By the median, as some of them may be wrong.
-void improve_loops(std::span<const LoopDiscrepancy> between, VarianceFactors& factors) {
+void improve_loops(std::span<const LoopDiscrepancy> between, double max_factor, VarianceFactors& factors) {
   std::vector<double> chi2;
   for (const LoopDiscrepancy& d : between) chi2.push_back(discrepancy_chi2(d, factors));
   if (chi2.empty()) return;
   const double median = upper_median(chi2);
-  if (std::isfinite(median)) factors.loops = std::clamp(factors.loops * median / kMedianChi2, 1.0, kMostFactor);
+  if (std::isfinite(median)) factors.loops = std::clamp(factors.loops * median / kMedianChi2, 1.0, max_factor);
 }
 
 }  // namespace
@@ -77,12 +74,12 @@ double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactor
 }
 
 VarianceFactors estimate_variance_factors(std::span<const LoopDiscrepancy> with_odometry,
-                                          std::span<const LoopDiscrepancy> between) {
+                                          std::span<const LoopDiscrepancy> between, const LoopDriftSettings& settings) {
   const std::vector<LoopDiscrepancy> of_odometry = finite_ones(with_odometry), of_loops = finite_ones(between);
   VarianceFactors factors;
-  for (int round = 0; round < kRounds; ++round) {
-    for (int step = 0; step < kSteps; ++step) improve_odometry(of_odometry, factors);
-    improve_loops(of_loops, factors);
+  for (int round = 0; round < settings.rounds; ++round) {
+    for (int step = 0; step < settings.steps; ++step) improve_odometry(of_odometry, settings.max_factor, factors);
+    improve_loops(of_loops, settings.max_factor, factors);
   }
   return factors;
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <span>
 
+#include "ldso/loop_settings.h"
 #include "ldso/records.h"
 #include "ldso/sim3.h"
 #include "mapping/map/keyframe_map.h"
@@ -36,6 +37,7 @@ double discrepancy_chi2(const LoopDiscrepancy& discrepancy, const VarianceFactor
 /// covariance is that of both. (A wrong lens bends the local maps, and loops seen from different places then disagree.)
 /// What is not finite does not count.
 VarianceFactors estimate_variance_factors(std::span<const LoopDiscrepancy> with_odometry,
-                                          std::span<const LoopDiscrepancy> between);
+                                          std::span<const LoopDiscrepancy> between,
+                                          const LoopDriftSettings& settings = {});
 
 }  // namespace ldso

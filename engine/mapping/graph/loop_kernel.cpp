@@ -8,8 +8,6 @@ namespace ldso {
 namespace {
 
 constexpr double kMedianChi2 = 6.346;  // of seven degrees of freedom
-constexpr double kNarrowing = 4;       // of the squared size in each step
-constexpr double kMargin = 2;          // of the squared size over the largest chi2, where that still pulls
 
 double largest(const std::vector<double>& chi2) {
   return chi2.empty() ? 0 : *std::max_element(chi2.begin(), chi2.end());
@@ -31,20 +29,18 @@ double loop_variance_factor(std::vector<double> chi2) {
   return std::max(*median / kMedianChi2, 1.0);
 }
 
-LoopKernel::LoopKernel(double size, const std::vector<double>& chi2, bool graduated)
-    : size_(size), variance_factor_(loop_variance_factor(chi2)), is_final_(!graduated) {
-  const double final_squared = size_ * size_ * variance_factor_;
-  squared_ = graduated ? std::max(final_squared, kMargin * largest(chi2)) : final_squared;
+LoopKernel::LoopKernel(const PoseGraphSettings& settings, const std::vector<double>& chi2, bool graduated)
+    : settings_(settings), variance_factor_(loop_variance_factor(chi2)), is_final_(!graduated) {
+  squared_ = graduated ? std::max(final_squared(), settings_.margin * largest(chi2)) : final_squared();
 }
 
 void LoopKernel::narrow(const std::vector<double>& chi2) {
   if (is_final_) return;
   // Never much wider than the largest residual: as soon as no loop is left that does not fit, this is the final one.
-  const double next = std::min(squared_ / kNarrowing, kMargin * largest(chi2));
+  const double next = std::min(squared_ / settings_.narrowing, settings_.margin * largest(chi2));
   variance_factor_ = loop_variance_factor(chi2);
-  const double final_squared = size_ * size_ * variance_factor_;
-  is_final_ = next <= final_squared;
-  squared_ = std::max(final_squared, next);
+  is_final_ = next <= final_squared();
+  squared_ = std::max(final_squared(), next);
 }
 
 }  // namespace ldso

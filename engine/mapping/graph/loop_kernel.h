@@ -8,6 +8,8 @@
 
 #include <vector>
 
+#include "ldso/loop_settings.h"
+
 namespace ldso {
 
 /// Half of a loop's squared residual `chi2` under a kernel of that size, and the weight that it puts on the loop.
@@ -19,12 +21,12 @@ double geman_mcclure_weight(double chi2, double kernel_squared);
 /// large: the odometry's information promises too much, and its constraint is pulling at the loops.
 double loop_variance_factor(std::vector<double> chi2);
 
-/// The kernel's size in the course of an optimization. The final one is `size` standard deviations times the root of
+/// The kernel's size in the course of an optimization. The final one is the setting times the root of
 /// the variance factor: loops are judged by each other, and the first one, which has no other, always closes.
 class LoopKernel {
  public:
   /// From the loops' squared residuals before the first step. Not graduated: it is final.
-  LoopKernel(double size, const std::vector<double>& chi2, bool graduated);
+  LoopKernel(const PoseGraphSettings& settings, const std::vector<double>& chi2, bool graduated);
 
   /// After a step.
   void narrow(const std::vector<double>& chi2);
@@ -34,7 +36,10 @@ class LoopKernel {
   double variance_factor() const { return variance_factor_; }
 
  private:
-  double size_, squared_;
+  double final_squared() const { return settings_.kernel * settings_.kernel * variance_factor_; }
+
+  PoseGraphSettings settings_;
+  double squared_;
   double variance_factor_ = 1;
   bool is_final_;
 };

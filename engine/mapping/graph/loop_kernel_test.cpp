@@ -23,7 +23,7 @@ TEST(LoopKernelTest, VarianceFactorIsThatOfTheMajority) {
 }
 
 TEST(LoopKernelTest, NarrowsStepByStepAroundAnOutlierAndAtOnceWithoutOne) {
-  LoopKernel kernel(8, {1000, 2000, 3000, 1e6}, true);
+  LoopKernel kernel({.kernel = 8}, {1000, 2000, 3000, 1e6}, true);
   EXPECT_EQ(kernel.squared(), 2e6);
   EXPECT_FALSE(kernel.is_final());
   for (const double expected : {5e5, 1.25e5}) {
@@ -39,7 +39,7 @@ TEST(LoopKernelTest, NarrowsStepByStepAroundAnOutlierAndAtOnceWithoutOne) {
 }
 
 TEST(LoopKernelTest, EndsWhereTheMajorityIs) {
-  LoopKernel kernel(8, {6346, 6346, 6346, 1e9}, true);
+  LoopKernel kernel({.kernel = 8}, {6346, 6346, 6346, 1e9}, true);
   for (int i = 0; i < 100 && !kernel.is_final(); ++i) kernel.narrow({634.6, 634.6, 634.6, 1e9});
   EXPECT_TRUE(kernel.is_final());
   EXPECT_NEAR(kernel.squared(), 6400, 1e-6);
@@ -47,7 +47,7 @@ TEST(LoopKernelTest, EndsWhereTheMajorityIs) {
 }
 
 TEST(LoopKernelTest, IsFinalFromTheStartIfNotGraduated) {
-  const LoopKernel kernel(8, {5, 6, 1e6}, false);
+  const LoopKernel kernel({.kernel = 8}, {5, 6, 1e6}, false);
   EXPECT_TRUE(kernel.is_final());
   EXPECT_EQ(kernel.squared(), 64);
 }

@@ -37,10 +37,8 @@ PoseGraphResidual::Vector7d weights_of(const Eigen::Vector3d& variance_factors) 
 
 }  // namespace
 
-PoseGraph::PoseGraph(const PoseGraphSettings& settings) : settings_(settings) {
-  settings_.validate();
-  kernel_squared_ = settings_.loop_kernel * settings_.loop_kernel;
-}
+PoseGraph::PoseGraph(const PoseGraphSettings& settings)
+    : settings_(settings), kernel_squared_(settings.kernel * settings.kernel) {}
 
 void PoseGraph::add_keyframe(std::int64_t id, const Sim3d& S_world_keyframe) {
   if (!ids_.empty() && id <= ids_.back()) {
@@ -87,7 +85,7 @@ PoseGraphReport PoseGraph::optimize(std::int64_t fixed_id) {
   component.problem.graduated = needs_graduation(component);
   PoseGraphReport report = solve(component.problem, settings_);
   if (report.ok) {
-    kernel_squared_ = settings_.loop_kernel * settings_.loop_kernel * report.loop_variance_factor;
+    kernel_squared_ = settings_.kernel * settings_.kernel * report.loop_variance_factor;
     take_over(component);
   }
   return report;

@@ -27,7 +27,6 @@ struct PoseGraphLoop {
 /// Not for several threads at once. The same calls give the same poses to the last bit.
 class PoseGraph {
  public:
-  /// Throws Error if a setting is out of range.
   explicit PoseGraph(const PoseGraphSettings& settings = {});
 
   /// A keyframe where the odometry puts it. Throws Error unless the id is above those before, the pose finite and its

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <deque>
 
-#include "ldso/error.h"
 #include "mapping/graph/loop_kernel.h"
 #include "mapping/graph/sim3_manifold.h"
 
@@ -118,7 +117,7 @@ class Solver {
       : problem_(problem),
         settings_(settings),
         state_(parameters_of(problem.poses)),
-        kernel_(settings.loop_kernel, loop_chi2(problem), problem.graduated),
+        kernel_(settings, loop_chi2(problem), problem.graduated),
         schedule_(problem, state_, kernel_),
         loss_(kernel_),
         ceres_(problem_options()) {
@@ -138,7 +137,8 @@ class Solver {
     }
     while (!report.converged && report.iterations < settings_.max_iterations) {
       ceres::Solver::Summary summary;
-      ceres::Solve(solver_options(settings_.max_iterations - report.iterations), &ceres_, &summary);
+      ceres::Solve(solver_options(settings_.max_iterations - report.iterations, settings_.tolerance), &ceres_,
+                   &summary);
       report.iterations += static_cast<int>(summary.iterations.size()) - 1;
       report.final_cost = summary.final_cost;
       report.reason = summary.message;
@@ -175,7 +175,7 @@ class Solver {
     return options;
   }
 
-  static ceres::Solver::Options solver_options(int max_iterations) {
+  static ceres::Solver::Options solver_options(int max_iterations, double tolerance) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
@@ -186,7 +186,7 @@ class Solver {
     // down. This much keeps directions that nothing determines (a scale without information) where they are.
     options.initial_trust_region_radius = 1e12;
     options.max_trust_region_radius = 1e12;
-    options.function_tolerance = 1e-4;
+    options.function_tolerance = tolerance;
     options.parameter_tolerance = 1e-10;
     return options;
   }
@@ -241,13 +241,6 @@ class Solver {
 };
 
 }  // namespace
-
-void PoseGraphSettings::validate() const {
-  if (max_iterations < 1) throw Error("pose graph", "max_iterations is below 1", "allow an iteration at least");
-  if (!(loop_kernel >= 1e-3) || !std::isfinite(loop_kernel)) {
-    throw Error("pose graph", "loop_kernel is not finite or below 0.001", "the default is 8");
-  }
-}
 
 PoseGraphReport solve(PoseGraphProblem& problem, const PoseGraphSettings& settings) {
   return Solver(problem, settings).run();

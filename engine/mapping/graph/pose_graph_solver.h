@@ -6,21 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "ldso/loop_settings.h"
 #include "ldso/sim3.h"
 #include "mapping/graph/pose_graph_edge.h"
 
 namespace ldso {
-
-struct PoseGraphSettings {
-  int max_iterations = 100;  ///< Steps of Levenberg-Marquardt.
-  /// Of the loops' Geman-McClure kernel, in standard deviations: a residual of this length counts a quarter. The
-  /// length of a true loop's residual is sqrt(7) on average and nearly always below 5.
-  /// Larger where most loops' residuals are (LoopKernel).
-  double loop_kernel = 8;
-
-  /// Throws Error if a setting is out of range.
-  void validate() const;
-};
 
 struct PoseGraphReport {
   bool ok = false;         ///< The poses are the new ones. Otherwise nothing has changed.

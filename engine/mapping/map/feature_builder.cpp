@@ -12,10 +12,6 @@
 namespace ldso {
 namespace {
 
-/// Matches are confined to features of one node this many levels above the words: a word is too narrow (descriptors
-/// of one corner differ), a high node saves nothing.
-constexpr int kLevelsAboveWords = 2;
-
 std::pair<int, int> pixel_of(float u, float v) {
   return {static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v))};
 }
@@ -23,7 +19,8 @@ std::pair<int, int> pixel_of(float u, float v) {
 }  // namespace
 
 KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen::Vector2f> corners,
-                                std::span<const MapPoint> points, const Vocabulary& vocabulary) {
+                                std::span<const MapPoint> points, const Vocabulary& vocabulary,
+                                const LoopMatchingSettings& settings) {
   std::map<std::pair<int, int>, const MapPoint*> point_at;
   for (const MapPoint& point : points) {
     const bool has_depth = point.idepth > 0 && std::isfinite(point.idepth) && std::isfinite(point.idepth_stddev);
@@ -31,7 +28,7 @@ KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen
   }
   const DescribedCorners described = describe(image, corners);
   const std::vector<WordId> words = vocabulary.words(described.features);
-  const int level = std::max(1, vocabulary.depth() - kLevelsAboveWords);
+  const int level = std::max(1, vocabulary.depth() - settings.levels_above_words);
   KeyframeFeatures result;
   result.words = vocabulary.bow_vector(words);
   result.features.reserve(described.features.size());

@@ -8,6 +8,7 @@
 
 #include "image/frame.h"
 #include "ldso/calibration.h"
+#include "ldso/loop_settings.h"
 #include "ldso/records.h"
 #include "mapping/map/map_feature.h"
 #include "place/vocabulary.h"
@@ -19,9 +20,11 @@ struct KeyframeFeatures {
   BowVector words;
 };
 
-/// Describes `corners` of `image` and gives those their depth that became points of the map. Ordered by node.
+/// Describes `corners` of `image` and gives those their depth that became points of the map. Ordered by node,
+/// of which the settings say the level.
 KeyframeFeatures build_features(const Image<Texel>& image, std::span<const Eigen::Vector2f> corners,
-                                std::span<const MapPoint> points, const Vocabulary& vocabulary);
+                                std::span<const MapPoint> points, const Vocabulary& vocabulary,
+                                const LoopMatchingSettings& settings = {});
 
 /// Moves features from where a rolling shutter showed them to where a global one would have; those without depth as if
 /// they were as far as the median of the others.

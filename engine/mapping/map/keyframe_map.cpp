@@ -13,12 +13,10 @@ namespace ldso {
 namespace {
 
 /// Of a step between keyframes that never shared a window: the odometry lost its way between them.
-constexpr double kBrokenTranslation = 1, kBrokenRotation = 0.5, kBrokenLogScale = 0.7;
-
-Matrix7d broken_covariance(double unit) {
+Matrix7d broken_covariance(const LoopDriftSettings& settings, double unit) {
   Eigen::Matrix<double, 7, 1> stddev;
-  stddev << Eigen::Vector3d::Constant(kBrokenTranslation * unit), Eigen::Vector3d::Constant(kBrokenRotation),
-      kBrokenLogScale;
+  stddev << Eigen::Vector3d::Constant(settings.broken_translation * unit),
+      Eigen::Vector3d::Constant(settings.broken_rotation), settings.broken_log_scale;
   return stddev.cwiseAbs2().asDiagonal();
 }
 
@@ -101,7 +99,7 @@ KeyframeMap::Link KeyframeMap::link(int first, int second) const {
   }
   const double idepth = keyframes_[first].median_idepth;
   return {keyframes_[first].T_world_camera.inverse() * keyframes_[second].T_world_camera,
-          broken_covariance(idepth > 0 ? 1 / idepth : 1)};
+          broken_covariance(settings_, idepth > 0 ? 1 / idepth : 1)};
 }
 
 OdometryChain KeyframeMap::chain(int from, int to) const {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "ldso/loop_settings.h"
 #include "ldso/records.h"
 #include "ldso/sim3.h"
 #include "mapping/map/map_feature.h"
@@ -46,6 +47,8 @@ double median_idepth(const std::vector<MapFeature>& features);
 
 class KeyframeMap {
  public:
+  explicit KeyframeMap(const LoopDriftSettings& settings = {}) : settings_(settings) {}
+
   /// Adds a keyframe with its constraints to others, which may come later; returns its index. Throws Error if its
   /// frame id is there already.
   int add(const KeyframeUpdate& update, std::vector<MapFeature> features);
@@ -83,6 +86,7 @@ class KeyframeMap {
   };
   Link link(int first, int second) const;
 
+  LoopDriftSettings settings_;
   std::vector<MapKeyframe> keyframes_;
   std::map<std::int64_t, int> index_of_;  ///< By frame id.
   /// Constraints of keyframes that are here to such that are not yet: by the frame id of the latter.

@@ -108,7 +108,7 @@ std::optional<PatchPosition> align_patch(const Patch& patch, const Image<Texel>&
       return found;
     }
     found.pixel += x.head<2>();
-    if (!((found.pixel - start).norm() <= settings.max_shift_px)) return std::nullopt;
+    if (!((found.pixel - start).norm() <= settings.max_shift)) return std::nullopt;
   }
   return std::nullopt;
 }

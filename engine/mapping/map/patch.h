@@ -10,6 +10,7 @@
 
 #include "image/frame.h"
 #include "ldso/image.h"
+#include "ldso/loop_settings.h"
 
 namespace ldso {
 
@@ -23,14 +24,6 @@ struct Patch {
 /// Of the pixels around (u, v), rounded to whole ones. Without a pixel that may be used everywhere it is all zero,
 /// which align_patch() finds nothing for.
 Patch cut_patch(const Image<Texel>& image, float u, float v);
-
-struct PatchAlignmentSettings {
-  int max_iterations = 10;
-  double max_shift_px = 2.5;      ///< From the start; what moves farther is lost.
-  double min_correlation = 0.85;  ///< Zero-mean normalized cross-correlation of what was found.
-  double max_gain = 3;            ///< Of contrast, and its inverse.
-  double least_noise = 0.7;       ///< Standard deviation of a grey level that is believed at the best.
-};
 
 /// Where a patch was found.
 struct PatchPosition {

@@ -31,10 +31,10 @@ struct Nearest {
     }
   }
 
-  bool accepted(int max_distance, float max_ratio) const {
+  bool accepted(int max_distance, double max_ratio) const {
     if (index < 0 || distance > max_distance) return false;
     // Of equally near ones none is the nearest, also where the ratio test is off.
-    return static_cast<float>(distance) < std::min(max_ratio, 1.0f) * static_cast<float>(second);
+    return static_cast<float>(distance) < std::min(static_cast<float>(max_ratio), 1.0f) * static_cast<float>(second);
   }
 };
 
@@ -176,7 +176,7 @@ Nearest nearest_to_prediction(const PredictedPoint& point, std::span<const MapFe
 }  // namespace
 
 std::vector<FeatureMatch> match_descriptors(std::span<const MapFeature> a, std::span<const MapFeature> b,
-                                            const DescriptorMatchSettings& settings) {
+                                            const LoopMatchingSettings& settings) {
   NearestOfBoth nearest{std::vector<Nearest>(a.size()), std::vector<Nearest>(b.size())};
   if (settings.guided) {
     compare_same_nodes(a, b, nearest);
@@ -191,17 +191,18 @@ std::vector<FeatureMatch> match_descriptors(std::span<const MapFeature> a, std::
     if (back.index != i || !back.accepted(settings.max_distance, settings.max_ratio)) continue;
     matches.push_back({i, forth.index, forth.distance});
   }
-  return settings.check_orientation ? keep_common_turn(matches, a, b, settings.max_turn) : matches;
+  return settings.check_orientation ? keep_common_turn(matches, a, b, static_cast<float>(settings.max_turn)) : matches;
 }
 
 std::vector<FeatureMatch> match_by_projection(std::span<const PredictedPoint> points,
                                               std::span<const MapFeature> features,
-                                              const ProjectionMatchSettings& settings) {
+                                              const LoopSearchSettings& settings) {
   const FeatureGrid grid(features);
+  const auto max_turn = static_cast<float>(settings.max_turn);
   std::vector<FeatureMatch> wanted(points.size());
   std::vector<int> owner(features.size(), -1);  // the point that has the feature
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
-    const Nearest nearest = nearest_to_prediction(points[i], features, grid, settings.max_turn);
+    const Nearest nearest = nearest_to_prediction(points[i], features, grid, max_turn);
     if (!nearest.accepted(settings.max_distance, settings.max_ratio)) continue;
     wanted[i] = {i, nearest.index, nearest.distance};
     int& holder = owner[nearest.index];

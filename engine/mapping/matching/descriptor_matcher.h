@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "ldso/loop_settings.h"
 #include "mapping/map/map_feature.h"
 
 namespace ldso {
@@ -19,19 +20,11 @@ struct FeatureMatch {
   bool operator==(const FeatureMatch&) const = default;
 };
 
-struct DescriptorMatchSettings {
-  bool guided = true;             ///< Compare only features of the same vocabulary node.
-  int max_distance = 64;          ///< Largest Hamming distance of a match [bits].
-  float max_ratio = 0.8f;         ///< Nearest below this share of the second nearest (Lowe, IJCV 2004); 1: off.
-  bool check_orientation = true;  ///< Keep only matches turned like most of them.
-  float max_turn = 0.5236f;       ///< Largest deviation from the common turn [rad].
-};
-
 /// Matches of two keyframes' features: mutually nearest, unambiguous in both directions, and, as a camera that comes
 /// back sees the whole image turned by one angle, turned alike. Ambiguous and equally near candidates give no match.
 /// In ascending order of `a`; each feature occurs at most once.
 std::vector<FeatureMatch> match_descriptors(std::span<const MapFeature> a, std::span<const MapFeature> b,
-                                            const DescriptorMatchSettings& settings = {});
+                                            const LoopMatchingSettings& settings = {});
 
 /// A point of the map as it should appear in an image.
 struct PredictedPoint {
@@ -42,19 +35,13 @@ struct PredictedPoint {
   float angle = std::numeric_limits<float>::quiet_NaN();
 };
 
-struct ProjectionMatchSettings {
-  int max_distance = 64;     ///< Largest Hamming distance of a match [bits].
-  float max_ratio = 0.9f;    ///< Nearest below this share of the second nearest within the radius; 1: off.
-  float max_turn = 0.5236f;  ///< Largest deviation from the expected orientation [rad].
-};
-
 /// For each point the most similar of the features within its radius, if it is unambiguous. A feature goes to the
 /// most similar of the points that want it (the first of equals): neighbouring keyframes may well have described the
 /// same corner. In ascending order of `a` (the point); `b` is the feature. Predictions that are not finite find
 /// nothing.
 std::vector<FeatureMatch> match_by_projection(std::span<const PredictedPoint> points,
                                               std::span<const MapFeature> features,
-                                              const ProjectionMatchSettings& settings = {});
+                                              const LoopSearchSettings& settings = {});
 
 /// The matches whose features are turned against each other like most are: those whose difference of angles
 /// (b minus a) lies within `max_turn` [rad] of the common one. Keeps the order.

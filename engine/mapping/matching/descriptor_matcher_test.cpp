@@ -57,7 +57,7 @@ TEST(MatchDescriptorsTest, FindsEachCornerAgainGuidedOrNot) {
   constexpr int kCount = 300;
   const Views views = two_views(kCount);
   for (const bool guided : {true, false}) {
-    DescriptorMatchSettings settings;
+    LoopMatchingSettings settings;
     settings.guided = guided;
     const std::vector<FeatureMatch> matches = match_descriptors(views.a, views.b, settings);
     ASSERT_EQ(matches.size(), kCount) << guided;
@@ -69,7 +69,7 @@ TEST(MatchDescriptorsTest, GuidedComparesOnlyTheSameNode) {
   Views views = two_views(50);
   for (int i = 0; i < 20; ++i) views.a[i].node = 1000 + i;
   EXPECT_EQ(match_descriptors(views.a, views.b).size(), 30u);
-  DescriptorMatchSettings unguided;
+  LoopMatchingSettings unguided;
   unguided.guided = false;
   EXPECT_EQ(match_descriptors(views.a, views.b, unguided).size(), 50u);
 }
@@ -82,7 +82,7 @@ TEST(MatchDescriptorsTest, ManyOrOneNodeGiveTheSame) {
 TEST(MatchDescriptorsTest, TooDifferentIsNoMatch) {
   std::mt19937_64 generator(1);
   const OrbDescriptor d = random_descriptor(generator);
-  DescriptorMatchSettings settings;
+  LoopMatchingSettings settings;
   settings.max_distance = 40;
   const std::vector<MapFeature> a{feature_at(0, 0, d)};
   EXPECT_EQ(match_descriptors(a, std::vector{feature_at(0, 0, with_flipped_bits(d, 40))}, settings).size(), 1u);
@@ -101,7 +101,7 @@ TEST(MatchDescriptorsTest, AmbiguousIsNoMatchInEitherDirection) {
   EXPECT_EQ(match_descriptors(clear, one), (std::vector<FeatureMatch>{{1, 0, 20}}));
   EXPECT_TRUE(match_descriptors(one, alike).empty());
   EXPECT_TRUE(match_descriptors(alike, one).empty());
-  DescriptorMatchSettings any_ratio;
+  LoopMatchingSettings any_ratio;
   any_ratio.max_ratio = 1;
   EXPECT_EQ(match_descriptors(one, alike, any_ratio), (std::vector<FeatureMatch>{{0, 1, 20}}));
   EXPECT_TRUE(match_descriptors(one, equal, any_ratio).empty());  // a tie has no nearest
@@ -133,7 +133,7 @@ TEST(MatchDescriptorsTest, OrientationWrapsAround) {
     const auto wrong = std::count_if(matches.begin(), matches.end(), [](const FeatureMatch& m) { return m.a < 40; });
     EXPECT_GE(static_cast<int>(matches.size() - wrong), 79) << turn;
     EXPECT_LE(wrong, 3) << turn;
-    DescriptorMatchSettings any_turn;
+    LoopMatchingSettings any_turn;
     any_turn.check_orientation = false;
     EXPECT_EQ(match_descriptors(views.a, views.b, any_turn).size(), 120u);
   }

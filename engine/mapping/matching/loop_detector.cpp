@@ -40,8 +40,8 @@ std::vector<LoopCandidate> LoopDetector::detect(const KeyframeMap& map, const Bo
   database_.add(newest, words);
   last_words_ = words;
   std::vector<LoopCandidate> candidates = group(map, results);
-  if (candidates.size() > static_cast<std::size_t>(settings_.max_candidates)) {
-    candidates.resize(static_cast<std::size_t>(settings_.max_candidates));
+  if (candidates.size() > static_cast<std::size_t>(max_candidates_)) {
+    candidates.resize(static_cast<std::size_t>(max_candidates_));
   }
   return candidates;
 }

@@ -6,20 +6,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "ldso/loop_settings.h"
 #include "mapping/map/keyframe_map.h"
 #include "place/keyframe_database.h"
 #include "place/vocabulary.h"
 
 namespace ldso {
-
-struct LoopDetectorSettings {
-  int min_gap = 10;             ///< Keyframes between a candidate and the newest, at least.
-  int excluded_hops = 2;        ///< Nor are those candidates that are linked to it by so many shared windows.
-  int max_results = 30;         ///< Of the query.
-  int max_candidates = 3;       ///< Places to be verified.
-  double min_score = 0.02;      ///< Of a candidate, in any case;
-  double relative_score = 0.4;  ///< and in proportion to the score of the keyframe before the newest.
-};
 
 /// A place that may be that of the newest keyframe.
 struct LoopCandidate {
@@ -30,8 +22,8 @@ struct LoopCandidate {
 
 class LoopDetector {
  public:
-  explicit LoopDetector(std::size_t word_count, const LoopDetectorSettings& settings = {})
-      : settings_(settings), database_(word_count) {}
+  explicit LoopDetector(std::size_t word_count, const LoopSettings& settings = {})
+      : settings_(settings.detection), max_candidates_(settings.max_candidates), database_(word_count) {}
 
   /// Candidates for the newest keyframe of `map`, whose words are given: keyframes that shared a window count as one
   /// place; best place first. The keyframe then enters the database, whatever came of it.
@@ -41,7 +33,8 @@ class LoopDetector {
   std::size_t memory_bytes() const { return database_.memory_bytes(); }
 
  private:
-  LoopDetectorSettings settings_;
+  LoopDetectionSettings settings_;
+  int max_candidates_;
   KeyframeDatabase database_;
   BowVector last_words_;  ///< Of the keyframe before.
 };

@@ -25,12 +25,12 @@ BowVector image_of(int place, int shared = kWordsOfPlace, int own = 0) {
 class LoopDetectorTest : public testing::Test {
  protected:
   LoopDetectorTest() {
-    settings_.min_gap = 8;
-    settings_.excluded_hops = 2;
-    settings_.max_results = 30;
+    settings_.detection.min_gap = 8;
+    settings_.detection.excluded_hops = 2;
+    settings_.detection.max_results = 30;
     settings_.max_candidates = 3;
-    settings_.min_score = 0.05;
-    settings_.relative_score = 0;
+    settings_.detection.min_score = 0.05;
+    settings_.detection.relative_score = 0;
   }
 
   std::vector<LoopCandidate> add(LoopDetector& detector, const BowVector& words, std::vector<int> also_linked_to = {}) {
@@ -42,7 +42,7 @@ class LoopDetectorTest : public testing::Test {
     return detector.detect(map_, words);
   }
 
-  LoopDetectorSettings settings_;
+  LoopSettings settings_;
   KeyframeMap map_;
 };
 
@@ -96,13 +96,13 @@ TEST_F(LoopDetectorTest, NotTheRecentPast) {
   LoopDetector detector(kWords, settings_);
   for (int i = 0; i < 30; ++i) {
     const std::vector<LoopCandidate> found = add(detector, image_of(0));
-    EXPECT_EQ(found.empty(), i < settings_.min_gap) << i;
-    for (const LoopCandidate& candidate : found) EXPECT_LE(candidate.index, i - settings_.min_gap);
+    EXPECT_EQ(found.empty(), i < settings_.detection.min_gap) << i;
+    for (const LoopCandidate& candidate : found) EXPECT_LE(candidate.index, i - settings_.detection.min_gap);
   }
 }
 
 TEST_F(LoopDetectorTest, NotWhatTheWindowLinks) {
-  settings_.min_gap = 1;
+  settings_.detection.min_gap = 1;
   LoopDetector detector(kWords, settings_);
   for (int i = 0; i < 20; ++i) {
     const std::vector<int> around = [&] {
@@ -137,7 +137,7 @@ TEST_F(LoopDetectorTest, NoMoreThanAsked) {
 }
 
 TEST_F(LoopDetectorTest, WeakOnesDoNotCount) {
-  settings_.min_score = 0.3;
+  settings_.detection.min_score = 0.3;
   LoopDetector detector(kWords, settings_);
   add(detector, image_of(0));
   for (int i = 1; i < kPlaces; ++i) add(detector, image_of(i));
@@ -146,7 +146,7 @@ TEST_F(LoopDetectorTest, WeakOnesDoNotCount) {
 }
 
 TEST_F(LoopDetectorTest, WeakerThanTheKeyframeBeforeDoesNotCount) {
-  settings_.relative_score = 0.8;
+  settings_.detection.relative_score = 0.8;
   LoopDetector detector(kWords, settings_);
   add(detector, image_of(0, 10, 1));
   for (int i = 1; i < kPlaces; ++i) add(detector, image_of(i));

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -167,10 +168,10 @@ double samples_needed(double inlier_share, double confidence) {
 
 std::optional<PnpResult> pnp_ransac(std::span<const PnpCorrespondence> correspondences, const PinholeIntrinsics& camera,
                                     const PnpSettings& settings) {
-  const PnpProblem problem(correspondences, camera, settings.threshold_px);
+  const PnpProblem problem(correspondences, camera, settings.threshold);
   const int enough = std::max(settings.min_inliers, 4);
   if (!is_valid(camera) || problem.size() < enough) return std::nullopt;
-  std::mt19937_64 generator(settings.seed);
+  std::mt19937_64 generator(static_cast<std::uint64_t>(settings.seed));
   Hypothesis best;
   double needed = settings.max_iterations;
   int iteration = 0;

@@ -5,12 +5,12 @@
 // its inliers (locally optimized RANSAC: Chum, Matas and Kittler, DAGM 2003).
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "ldso/calibration.h"
+#include "ldso/loop_settings.h"
 #include "ldso/se3.h"
 
 namespace ldso {
@@ -20,14 +20,6 @@ struct PnpCorrespondence {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< Where the camera sees it (rectified image).
   /// Standard deviation of the pixel in each direction, with that which the point's uncertainty adds [px].
   double sigma_px = 1;
-};
-
-struct PnpSettings {
-  double threshold_px = 3;    ///< Largest reprojection error of an inlier whose sigma_px is 1; in proportion else [px].
-  int min_inliers = 10;       ///< With fewer there is no result; four at least in any case.
-  double confidence = 0.999;  ///< Stop when a sample of three inliers was drawn with this probability.
-  int max_iterations = 1000;  ///< Samples at most.
-  std::uint64_t seed = 1;     ///< Same seed and input, same result.
 };
 
 struct PnpResult {

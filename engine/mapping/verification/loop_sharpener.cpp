@@ -56,7 +56,7 @@ bool is_comparable(const Eigen::Matrix2d& warp, double max_magnification) {
 /// Nothing if its patch is not found well enough in the image.
 std::optional<Sim3Correspondence> find_point(const LocalPoint& point, const MapFeature& feature,
                                              const PinholeIntrinsics& camera, const CurrentImage& current,
-                                             const Sim3d& S, const LoopSharpenerSettings& settings) {
+                                             const Sim3d& S, const LoopSharpeningSettings& settings) {
   const Sim3d S_current_host = S * Sim3d(point.T_local_host);
   const Eigen::Vector2d pixel(feature.feature.u, feature.feature.v);
   const auto start = transfer(camera, S_current_host, pixel, feature.idepth);
@@ -69,8 +69,8 @@ std::optional<Sim3Correspondence> find_point(const LocalPoint& point, const MapF
   Sim3Correspondence c;
   c.point = point.point;
   c.pixel = without_readout(camera, current.readout, found->pixel, start->idepth).pixel;
-  c.sigma_px = std::max(settings.least_sigma_px, std::sqrt(std::max(eigen.eigenvalues()[1], 0.0)));
-  if (!(c.sigma_px <= settings.max_sigma_px)) return std::nullopt;
+  c.sigma_px = std::max(settings.least_stddev, std::sqrt(std::max(eigen.eigenvalues()[1], 0.0)));
+  if (!(c.sigma_px <= settings.max_stddev)) return std::nullopt;
   return c;
 }
 
@@ -83,7 +83,7 @@ void lend_depth(const LoopMatch& match, double max_shift_px, Sim3Correspondence&
 
 std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
                                             const CurrentImage& current, const LoopVerification& loop,
-                                            const LoopSharpenerSettings& settings) {
+                                            const LoopSharpeningSettings& settings) {
   const MatchOfPoint matches = matches_with_depth(loop);
   const auto cell = [&](const Eigen::Vector2d& pixel) {
     const Eigen::Array2d place = pixel.array() / Eigen::Array2d(camera.width, camera.height);
@@ -97,7 +97,7 @@ std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidat
         find_point(point, feature, camera, current, loop.sim3.S_current_candidate, settings);
     if (!c) continue;
     const auto match = matches.find({point.keyframe, point.feature});
-    if (match != matches.end()) lend_depth(*match->second, settings.max_depth_shift_px, *c);
+    if (match != matches.end()) lend_depth(*match->second, settings.max_depth_shift, *c);
     c->group = cell(c->pixel);
     found.push_back(*c);
   }
@@ -108,9 +108,9 @@ std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidat
 
 std::optional<Sim3Estimate> sharpen_loop(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
                                          const CurrentImage& current, const LoopVerification& loop,
-                                         const LoopSharpenerSettings& settings) {
+                                         const LoopSharpeningSettings& settings) {
   const std::vector<Sim3Correspondence> found = find_points(map, candidate, camera, current, loop, settings);
-  Sim3Estimate estimate = estimate_sim3(found, camera, loop.sim3.S_current_candidate, settings.sim3);
+  Sim3Estimate estimate = estimate_sim3(found, camera, loop.sim3.S_current_candidate, settings.similarity);
   const double enough = std::max<double>(settings.min_inliers, settings.min_inlier_share * found.size());
   const bool stands = estimate.status == Sim3Status::kOk && estimate.scale_determined && estimate.num_inliers >= enough;
   if (!stands) return std::nullopt;

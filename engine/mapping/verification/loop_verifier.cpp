@@ -11,7 +11,9 @@
 #include "geometry/pinhole_projection.h"
 #include "mapping/map/local_map.h"
 #include "mapping/map/patch.h"
+#include "mapping/matching/descriptor_matcher.h"
 #include "mapping/matching/inlier_spread.h"
+#include "mapping/matching/pnp_ransac.h"
 
 namespace ldso {
 namespace {
@@ -21,7 +23,7 @@ struct Scene {
   const KeyframeMap& map;
   int current, candidate;
   const PinholeIntrinsics& camera;
-  const LoopVerifierSettings& settings;
+  const LoopSettings& settings;
   /// Features of the current keyframe, with the depths that its neighbours lend.
   std::vector<MapFeature> seen;
 };
@@ -31,7 +33,7 @@ Sim3Correspondence correspondence(const Scene& scene, const UncertainPoint& poin
   Sim3Correspondence c;
   c.point = point;
   c.pixel = {seen.feature.u, seen.feature.v};
-  c.sigma_px = scene.settings.sigma_px;
+  c.sigma_px = scene.settings.verification.corner_stddev;
   c.idepth = seen.idepth;
   c.idepth_stddev = seen.idepth_stddev;
   return c;
@@ -53,7 +55,7 @@ std::vector<LoopMatch> match_blindly(const Scene& scene) {
     }
     return static_cast<int>(found.size());
   };
-  if (match_with(scene.candidate) < scene.settings.min_own_matches) return {};
+  if (match_with(scene.candidate) < scene.settings.verification.min_own_matches) return {};
   for (const Neighbour& neighbour : scene.map[scene.candidate].neighbours) match_with(neighbour.index);
   std::vector<LoopMatch> matches;
   for (std::size_t i = 0; i < of.size(); ++i) {
@@ -79,9 +81,7 @@ std::vector<Sim3Correspondence> correspondences_of(const Scene& scene, const std
 std::optional<PnpResult> solve_pnp(const Scene& scene, const std::vector<Sim3Correspondence>& matches) {
   std::vector<PnpCorrespondence> pnp;
   for (const Sim3Correspondence& c : matches) pnp.push_back({c.point.mean, c.pixel, c.sigma_px});
-  PnpSettings settings = scene.settings.pnp;
-  settings.min_inliers = scene.settings.min_pnp_inliers;
-  return pnp_ransac(pnp, scene.camera, settings);
+  return pnp_ransac(pnp, scene.camera, scene.settings.pnp);
 }
 
 /// The scale by the inliers with depth on both sides, or else by all that have it.
@@ -128,8 +128,8 @@ Predictions predict(const Scene& scene, const std::vector<LocalPoint>& points, c
 void borrow_depths(Scene& scene) {
   std::vector<LocalPoint> points;
   add_points_of_neighbours(scene.map, scene.camera, scene.current, points);
-  const Predictions predictions = predict(scene, points, Sim3d(), scene.settings.own_radius_px);
-  for (const FeatureMatch& match : match_by_projection(predictions.points, scene.seen)) {
+  const Predictions predictions = predict(scene, points, Sim3d(), scene.settings.search.own_radius);
+  for (const FeatureMatch& match : match_by_projection(predictions.points, scene.seen, scene.settings.search)) {
     MapFeature& feature = scene.seen[match.b];
     if (feature.idepth > 0) continue;
     const UncertainPoint& point = points[predictions.index[match.a]].point;
@@ -140,21 +140,22 @@ void borrow_depths(Scene& scene) {
 }
 
 /// Good enough to search around.
-Sim3Settings rough(Sim3Settings settings) {
-  settings.max_robust_rounds = std::min(settings.max_robust_rounds, 2);
-  settings.max_inlier_rounds = std::min(settings.max_inlier_rounds, 2);
-  settings.max_iterations = std::min(settings.max_iterations, 6);
+SimilaritySettings rough(SimilaritySettings settings) {
+  constexpr int kRounds = 2, kIterations = 6;
+  settings.max_robust_rounds = std::min(settings.max_robust_rounds, kRounds);
+  settings.max_inlier_rounds = std::min(settings.max_inlier_rounds, kRounds);
+  settings.max_iterations = std::min(settings.max_iterations, kIterations);
   return settings;
 }
 
 /// Searches the local map in the current keyframe around where `S` puts it, and estimates anew.
-bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius, const Sim3Settings& settings,
-            LoopVerification& result) {
+bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double radius,
+            const SimilaritySettings& settings, LoopVerification& result) {
   const Sim3d S = result.sim3.S_current_candidate;
   const Predictions predictions = predict(scene, points, S, radius);
   std::vector<Sim3Correspondence> correspondences;
   result.matches.clear();
-  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen)) {
+  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen, scene.settings.search)) {
     const LocalPoint& point = points[predictions.index[m.a]];
     const Eigen::Vector2d pixel = project(scene.camera, point.point.mean);
     const MapFeature& seen = scene.seen[m.b];
@@ -185,7 +186,7 @@ std::vector<Eigen::Vector2d> inlier_pixels(const Scene& scene, const LoopVerific
 /// was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
 void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, const std::vector<Eigen::Vector2d>& found,
                 LoopVerification& result) {
-  const double radius = scene.settings.final_radius_px;
+  const double radius = scene.settings.search.final_radius;
   const Predictions predictions = predict(scene, points, result.sim3.S_current_candidate, radius);
   for (std::size_t i = 0; i < predictions.points.size(); ++i) {
     if (points[predictions.index[i]].keyframe != scene.candidate) continue;
@@ -203,7 +204,7 @@ std::string refusal(const char* what, double value, const char* limit_word, doub
 }
 
 /// Whether too few matches agree on the similarity; empty if they are enough.
-std::string lack_of_support(const LoopVerifierSettings& s, const LoopVerification& result) {
+std::string lack_of_support(const LoopSettings& s, const LoopVerification& result) {
   const Sim3Estimate& sim3 = result.sim3;
   if (sim3.num_inliers < s.min_inliers) return refusal("inliers", sim3.num_inliers, "at least", s.min_inliers);
   if (!sim3.scale_determined || sim3.num_depth_inliers < s.min_depth_inliers) {
@@ -214,22 +215,23 @@ std::string lack_of_support(const LoopVerifierSettings& s, const LoopVerificatio
 
 /// Why the similarity must not be believed though enough matches agree on it; empty if it may.
 std::string doubt(const Scene& scene, const std::vector<Eigen::Vector2d>& pixels, LoopVerification& result) {
-  const LoopVerifierSettings& s = scene.settings;
+  const LoopSettings& least = scene.settings;
+  const LoopVerificationSettings& s = scene.settings.verification;
   const Sim3Estimate& sim3 = result.sim3;
   const double depth_share = static_cast<double>(sim3.num_depth_inliers) / std::max(1, result.num_with_depth);
   if (depth_share < s.min_depth_share) {
     return refusal("share of the depths that fit", depth_share, "at least", s.min_depth_share);
   }
-  const InlierSpread spread = inlier_spread(pixels, scene.camera);
+  const InlierSpread spread = inlier_spread(pixels, scene.camera, s.grid_columns, s.grid_rows);
   result.covered_cells = spread.covered_cells;
-  if (spread.covered_cells < s.min_covered_cells) {
-    return refusal("share of the image with inliers", spread.covered_cells, "at least", s.min_covered_cells);
+  if (spread.covered_cells < least.min_covered_cells) {
+    return refusal("share of the image with inliers", spread.covered_cells, "at least", least.min_covered_cells);
   }
   const double minor = spread.minor_stddev_px / scene.camera.width;
   if (minor < s.min_minor_stddev) return refusal("spread of the inliers", minor, "at least", s.min_minor_stddev);
   const double seen = static_cast<double>(result.num_seen) / std::max(1, result.num_visible);
-  if (seen < s.min_seen_share)
-    return refusal("share of the map in view that is seen", seen, "at least", s.min_seen_share);
+  if (seen < least.min_seen_share)
+    return refusal("share of the map in view that is seen", seen, "at least", least.min_seen_share);
   const auto uncertainty = sim3_uncertainty(sim3.information);
   if (!uncertainty) return "the relative pose is not determined";
   result.uncertainty = *uncertainty;
@@ -250,13 +252,14 @@ std::string doubt(const Scene& scene, const std::vector<Eigen::Vector2d>& pixels
 }  // namespace
 
 LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
-                             const LoopVerifierSettings& settings) {
+                             const LoopSettings& settings) {
   Scene scene{map, current, candidate, camera, settings, map[current].features};
   LoopVerification result;
   result.matches = match_blindly(scene);
   result.num_descriptor_matches = static_cast<int>(result.matches.size());
-  if (result.num_descriptor_matches < settings.min_matches) {
-    result.reason = refusal("matches by descriptors", result.num_descriptor_matches, "at least", settings.min_matches);
+  const int enough = settings.verification.min_matches;
+  if (result.num_descriptor_matches < enough) {
+    result.reason = refusal("matches by descriptors", result.num_descriptor_matches, "at least", enough);
     return result;
   }
   const std::optional<PnpResult> pnp = solve_pnp(scene, correspondences_of(scene, result.matches));
@@ -273,8 +276,9 @@ LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate,
   }
   result.sim3.S_current_candidate = *initial;
   const std::vector<LocalPoint> points = local_map(map, camera, candidate);
-  const std::array<std::pair<double, Sim3Settings>, 2> steps = {
-      {{settings.search_radius_px, rough(settings.sim3)}, {settings.final_radius_px, settings.sim3}}};
+  const std::array<std::pair<double, SimilaritySettings>, 2> steps = {
+      {{settings.search.first_radius, rough(settings.similarity)},
+       {settings.search.final_radius, settings.similarity}}};
   for (const auto& [radius, sim3] : steps) {
     const bool found = refine(scene, points, radius, sim3, result);
     result.reason = found ? lack_of_support(settings, result) : "no similarity explains the matches of the local map";

@@ -7,34 +7,11 @@
 #include <vector>
 
 #include "ldso/calibration.h"
+#include "ldso/loop_settings.h"
 #include "mapping/map/keyframe_map.h"
-#include "mapping/matching/descriptor_matcher.h"
-#include "mapping/matching/pnp_ransac.h"
 #include "mapping/verification/sim3_estimator.h"
 
 namespace ldso {
-
-struct LoopVerifierSettings {
-  int min_own_matches = 6;  ///< By descriptors, with the candidate itself.
-  int min_matches = 15;     ///< By descriptors alone.
-  int min_pnp_inliers = 12;
-  int min_inliers = 20;            ///< Of the similarity.
-  int min_depth_inliers = 10;      ///< Of those, with depth on both sides.
-  double min_depth_share = 0.3;    ///< Depths that fit, of the inliers' that have one on both sides.
-  double min_covered_cells = 0.3;  ///< Share of a coarse grid's cells with an inlier.
-  double min_minor_stddev = 0.04;  ///< Spread of the inliers across their main direction, of the image's width.
-  double min_seen_share = 0.25;    ///< Inliers among the points of the local map that should be in view.
-  double max_rotation_deg = 1.0;   ///< Standard deviation.
-  double max_log_scale = 0.05;     ///< Standard deviation.
-  double max_translation = 0.05;   ///< Standard deviation, of the median depth.
-  double sigma_px = 1.0;           ///< Of a matched corner's place: they lie at whole pixels.
-  double own_radius_px = 2;        ///< Around the projection of a neighbour's point that may lend its depth.
-  double search_radius_px = 8;     ///< Around the projection of a point, first;
-  double final_radius_px = 4;      ///< then.
-  DescriptorMatchSettings matching;
-  PnpSettings pnp{.max_iterations = 300};
-  Sim3Settings sim3{.max_robust_rounds = 3, .max_inlier_rounds = 6, .max_iterations = 10};
-};
 
 /// A point of the candidate's local map that was found in the current keyframe.
 struct LoopMatch {
@@ -64,6 +41,6 @@ struct LoopVerification {
 
 /// `camera`: of the rectified images. Never throws for what it finds; the result says why there is no loop.
 LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
-                             const LoopVerifierSettings& settings = {});
+                             const LoopSettings& settings = {});
 
 }  // namespace ldso

@@ -20,19 +20,19 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What the tests depend on.
-LoopVerifierSettings settings() {
-  LoopVerifierSettings s;
-  s.min_matches = 15;
-  s.min_pnp_inliers = 10;
+LoopSettings settings() {
+  LoopSettings s;
+  s.verification.min_matches = 15;
+  s.pnp.min_inliers = 10;
   s.min_inliers = 20;
   s.min_depth_inliers = 10;
   s.min_covered_cells = 0.2;
-  s.min_minor_stddev = 0.04;
+  s.verification.min_minor_stddev = 0.04;
   s.min_seen_share = 0.25;
-  s.max_rotation_deg = 1;
-  s.max_log_scale = 0.05;
-  s.max_translation = 0.05;
-  s.sigma_px = 1;
+  s.verification.max_rotation_deg = 1;
+  s.verification.max_log_scale = 0.05;
+  s.verification.max_translation = 0.05;
+  s.verification.corner_stddev = 1;
   return s;
 }
 

@@ -176,7 +176,7 @@ int optimize(const Sim3Problem& problem, std::span<const Weights> weights, doubl
 
 /// Robust start. A match whose pixel is off has nothing to say about the depth either; that is renewed as the
 /// similarity improves.
-int robust_start(const Sim3Problem& problem, const Sim3Settings& settings, Sim3d& S) {
+int robust_start(const Sim3Problem& problem, const SimilaritySettings& settings, Sim3d& S) {
   const double c_squared = settings.cauchy_scale * settings.cauchy_scale;
   std::vector<Weights> weights(problem.size());
   int iterations = 0;
@@ -225,7 +225,7 @@ double excess_of(const InlierSet& previous) {
   return n > 14 ? n / (n - 7) : 1;
 }
 
-InlierSet find_inliers(const Sim3Problem& problem, const Sim3d& S, const Sim3Settings& settings, double excess) {
+InlierSet find_inliers(const Sim3Problem& problem, const Sim3d& S, const SimilaritySettings& settings, double excess) {
   std::vector<SquaredError> errors(problem.size());
   std::vector<double> pixel_errors, depth_errors;
   for (std::size_t i = 0; i < problem.size(); ++i) {
@@ -264,7 +264,7 @@ bool same_members(const InlierSet& a, const InlierSet& b) {
 }
 
 /// Least squares over the inliers, new inliers, and so on until they stay.
-InlierSet refine_on_inliers(const Sim3Problem& problem, const Sim3Settings& settings, int enough, Sim3d& S,
+InlierSet refine_on_inliers(const Sim3Problem& problem, const SimilaritySettings& settings, int enough, Sim3d& S,
                             int& iterations) {
   InlierSet set;
   for (int round = 0; round < settings.max_inlier_rounds; ++round) {
@@ -325,7 +325,7 @@ bool report_information(const Sim3Problem& problem, const InlierSet& set, Sim3Es
 }  // namespace
 
 Sim3Estimate estimate_sim3(std::span<const Sim3Correspondence> correspondences, const PinholeIntrinsics& camera,
-                           const Sim3d& initial, const Sim3Settings& settings) {
+                           const Sim3d& initial, const SimilaritySettings& settings) {
   Sim3Estimate estimate;
   estimate.is_inlier.assign(correspondences.size(), false);
   estimate.is_depth_inlier.assign(correspondences.size(), false);

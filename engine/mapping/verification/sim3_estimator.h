@@ -10,24 +10,13 @@
 #include <vector>
 
 #include "ldso/calibration.h"
+#include "ldso/loop_settings.h"
 #include "ldso/se3.h"
 #include "ldso/sim3.h"
 #include "mapping/map/matrix7d.h"
 #include "mapping/verification/sim3_residual.h"
 
 namespace ldso {
-
-struct Sim3Settings {
-  int min_inliers = 10;       ///< With fewer the status is kTooFew; seven at least in any case.
-  int min_depth_inliers = 5;  ///< With fewer matches with depth on both sides the scale counts as unknown.
-  double cauchy_scale = 2.4;  ///< Of the robust start, in standard deviations (95 % efficient on Gaussian noise).
-  /// The pixels' variance is scaled up by what the inliers show, at most by this; beyond it they are outliers.
-  double max_pixel_variance_factor = 4;
-  double max_depth_variance_factor = 25;  ///< The same for the inverse depths' variance.
-  int max_robust_rounds = 5;              ///< Renewals of the depths' weights in the robust start.
-  int max_inlier_rounds = 10;             ///< Renewals of the set of inliers.
-  int max_iterations = 20;                ///< Steps of Levenberg-Marquardt in each round.
-};
 
 enum class Sim3Status {
   kOk,          ///< The estimate stands.
@@ -62,7 +51,7 @@ struct Sim3Estimate {
 /// finite, no positive standard deviation) are never inliers. Unless the status is kOk, only the status, the flags
 /// and numbers of inliers mean anything.
 Sim3Estimate estimate_sim3(std::span<const Sim3Correspondence> correspondences, const PinholeIntrinsics& camera,
-                           const Sim3d& initial, const Sim3Settings& settings = {});
+                           const Sim3d& initial, const SimilaritySettings& settings = {});
 
 /// The similarity that continues a rigid motion found by PnP on the candidate's points (in the candidate's unit) with
 /// the median of the ratio of both depths. Nothing if no usable match has depth on both sides.

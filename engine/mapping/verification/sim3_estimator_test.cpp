@@ -236,7 +236,7 @@ TEST(Sim3EstimatorTest, TooFewDepthsDoNotDetermineTheScale) {
   const Sim3Estimate result = estimate(scene);
   EXPECT_EQ(result.status, Sim3Status::kOk);
   EXPECT_FALSE(result.scale_determined);
-  Sim3Settings four;
+  SimilaritySettings four;
   four.min_depth_inliers = 4;
   EXPECT_TRUE(estimate_sim3(scene.matches, scene.camera, rough_guess(scene.truth), four).scale_determined);
 }

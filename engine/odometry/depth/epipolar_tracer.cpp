@@ -7,10 +7,12 @@
 
 #include "image/interpolation.h"
 #include "odometry/depth/search_kernels.h"
+#include "odometry/state/robust_weight.h"
 
 namespace ldso {
 namespace {
 
+/// Positions along a segment that are looked at, one pixel apart.
 constexpr int kMostPositions = 100;
 /// Farthest that a turned pattern may reach from its centre [px].
 constexpr float kPatternReach = 3.5f;
@@ -20,10 +22,14 @@ constexpr float kBorder = kPatternReach + 2.5f;
 constexpr float kShortInterval = 1.5f;
 /// Second-best matches nearer than this to the best one do not count [px].
 constexpr float kAmbiguityRadius = 2;
+/// Energy of a match whose pixels differ by 12 grey levels each: above it is an outlier (DSO's threshold of a
+/// residual).
 constexpr float kOutlierEnergy = 12.0f * 12.0f * kPatternSize;
 /// Slack on the outlier energy of tracing over that of the window.
 constexpr float kOutlierSlack = 1.2f;
+/// Gauss-Newton steps below a pixel.
 constexpr int kRefinements = 4;
+/// A match is believed to be that wrong at most [px].
 constexpr float kLargestError = 10;
 
 }  // namespace
@@ -145,7 +151,7 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
         continue;
       }
       const float r = t.intensity - pattern.intensity[i];
-      const float weight = std::fabs(r) < kHuberThreshold ? 1 : kHuberThreshold / std::fabs(r);
+      const float weight = huber_weight(r);
       const float slope = segment.dx * t.dx + segment.dy * t.dy;
       H += weight * slope * slope;
       b += weight * r * slope;

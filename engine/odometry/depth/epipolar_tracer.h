@@ -16,7 +16,7 @@ bool make_immature_point(const Image<Texel>& image, float u, float v, ImmaturePo
 class EpipolarTracer {
  public:
   EpipolarTracer(const TracingSettings& settings, int width, int height)
-      : settings_(settings), longest_search_(static_cast<float>(settings.search_length * (width + height))) {}
+      : longest_search_(static_cast<float>(settings.search_length * (width + height))) {}
 
   /// Searches `point` of the host of `warp` in its target; updates interval, quality and status.
   TraceStatus trace(ImmaturePoint& point, const PatternWarp& warp) const;
@@ -28,7 +28,6 @@ class EpipolarTracer {
   static Match search(ImmaturePoint& point, const Segment& segment);
   static void refine(const PatternWarp& warp, const Segment& segment, Match& match);
 
-  TracingSettings settings_;
   float longest_search_;  ///< [px]
 };
 

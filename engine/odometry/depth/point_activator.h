@@ -3,7 +3,7 @@
 // Turns immature points into active ones: where the window has room for them in the newest keyframe, and only if a
 // refinement against all keyframes succeeds (DSO section 3.2).
 
-#include <optional>
+#include <vector>
 
 #include "ldso/settings.h"
 #include "odometry/state/window.h"
@@ -25,8 +25,6 @@ class PointActivator {
   struct Candidate;
   void steer_spacing(const Window& window);
   std::vector<Candidate> choose(Window& window, const FramePairs& pairs);
-  std::optional<ActivePoint> refine(const ImmaturePoint& immature, const Keyframe& host, const Window& window,
-                                    const FramePairs& pairs) const;
 
   TracingSettings tracing_;
   int wanted_;

@@ -201,6 +201,23 @@ TEST_F(PointActivatorTest, WrongIntervalsAreRefinedOrRejected) {
   EXPECT_LT(errors[errors.size() / 2], 0.005);
 }
 
+/// As many keyframes as the settings allow.
+TEST_F(PointActivatorTest, InALargeWindowTheNewestKeyframesAreTargetsToo) {
+  Window window = traced_window(12);
+  constexpr int kMany = 51;
+  while (window.size() < kMany) test::add_keyframe(window, frames_[kFrames - 1], test::path_pose(kFrames - 1));
+  PointActivator activator(tracing_, settings_, pool_);
+  ASSERT_GT(activator.activate(window), 50);
+  int in_newest = 0, points = 0;
+  for (const auto& host : window.keyframes) {
+    for (const ActivePoint& point : host->points) {
+      ++points;
+      for (const PointResidual& r : point.residuals) in_newest += r.target == window.keyframes.back().get() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(in_newest, points / 2);
+}
+
 TEST_F(PointActivatorTest, ThreadsDoNotChangeABit) {
   Window one = traced_window(9), other = traced_window(9);
   ThreadPool three(3);

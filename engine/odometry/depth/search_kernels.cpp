@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "image/interpolation.h"
+#include "odometry/state/robust_weight.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "odometry/depth/search_kernels.cpp"
@@ -59,21 +60,6 @@ HWY_EXPORT(search_energies_simd);
 
 void search_energies(const PatternSearch& search, int count, float* energies) {
   HWY_DYNAMIC_DISPATCH(search_energies_simd)(search, count, energies);
-}
-
-void search_energies_reference(const PatternSearch& search, int count, float* energies) {
-  // The height of the image is not known here, nor asked for.
-  const ImageView<const Texel> texels{search.texels, search.width, 0, search.width};
-  for (int n = 0; n < count; ++n) {
-    energies[n] = 0;
-    for (int i = 0; i < kPatternSize; ++i) {
-      const float x = search.x + static_cast<float>(n) * search.step_x + search.offset_x[i];
-      const float y = search.y + static_cast<float>(n) * search.step_y + search.offset_y[i];
-      const Texel t = quadratic(texels, x, y);
-      const float r = t.valid > 0.999f ? std::fabs(t.intensity - search.intensity[i]) : 30.0f;
-      energies[n] += r <= kHuberThreshold ? r * r : kHuberThreshold * (2 * r - kHuberThreshold);
-    }
-  }
 }
 
 }  // namespace ldso

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "image/test_forced_target.h"
+#include "odometry/state/robust_weight.h"
 #include "odometry/test_synthetic_scene.h"
 
 namespace ldso {

@@ -17,10 +17,14 @@ namespace ldso {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPositionFloor = 0.2;  // Least standard deviation of a displacement [px]: what patches really reach.
-constexpr double kInlier = 3.0;         // [standard deviations]
+/// Least standard deviation of a displacement [px]: what patches really reach.
+constexpr double kPositionFloor = 0.2;
+/// A match that is farther off is none [standard deviations].
+constexpr double kInlier = 3.0;
+/// With fewer matches no motion is believed.
 constexpr std::size_t kMinMatches = 40;
-constexpr double kMinDepth = 0.05;  // In the current frame over that in the first.
+/// Least depth in the current frame over that in the first.
+constexpr double kMinDepth = 0.05;
 // A brightness that was that wrong has biased the displacements: they are measured again.
 constexpr double kBrightnessFactorError = 0.03;
 constexpr double kBrightnessOffsetError = 1.0;  // [grey levels]

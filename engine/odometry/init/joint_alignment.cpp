@@ -11,18 +11,27 @@
 #include "image/interpolation.h"
 #include "odometry/init/patch_tracker.h"
 #include "odometry/state/residual_pattern.h"
+#include "odometry/state/robust_weight.h"
 #include "util/median.h"
 
 namespace ldso {
 namespace {
 
+/// Points that a thread takes at once.
 constexpr int kChunk = 64;
+/// Steps on each level.
 constexpr int kIterations = 10;
-constexpr double kOutlierFactor = 2.5;  // A point whose RMS residual exceeds that of the median point so many
-constexpr double kMinOutlier = 5.0;     // times, and this [grey levels], pulls no more: it straddles a step in depth.
-constexpr double kPriorNoise = 5.0;     // [grey levels], and
-constexpr double kPriorSpread = 0.5;    // an inverse depth is within this factor of its neighbours' median.
-constexpr double kMinRatio = 0.05;      // Least depth in the second view over depth in the first.
+/// A point whose root mean square residual exceeds that of the median point so many times pulls no more: it straddles a
+/// step in depth.
+constexpr double kOutlierFactor = 2.5;
+/// If it also exceeds this [grey levels].
+constexpr double kMinOutlier = 5.0;
+/// Of a residual, for the weight of the prior on inverse depths [grey levels].
+constexpr double kPriorNoise = 5.0;
+/// Standard deviation of an inverse depth about its neighbours' median, relative to that.
+constexpr double kPriorSpread = 0.5;
+/// Least depth in the second view over depth in the first.
+constexpr double kMinRatio = 0.05;
 
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
@@ -185,7 +194,7 @@ class Level {
       return false;
     }
     const float r = s.intensity - factor * host.intensity[k] - offset;
-    const float huber = std::abs(r) <= kHuberThreshold ? 1.0f : kHuberThreshold / std::abs(r);
+    const float huber = huber_weight(r);
     const float weight = 0.5f * (host.weight[k] + gradient_weight(s)) * huber;
     const float gx = s.dx * fx * iz;
     const float gy = s.dy * fy * iz;

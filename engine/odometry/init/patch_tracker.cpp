@@ -8,14 +8,21 @@
 namespace ldso {
 namespace {
 
+/// Steps on each level.
 constexpr int kMaxIterations = 10;
-constexpr int kStartLevel = 2;           // Candidate starts are compared there: blurred enough, distinct enough.
-constexpr float kConverged = 0.02f;      // [px of the level]
-constexpr float kMaxMove = 5.0f;         // On one level [px of the level]; farther is a jump to something else.
-constexpr double kMinCorrelation = 0.7;  // Below it the patch shows something else.
-constexpr float kNoise = 5.0f;           // Grey levels, and
-constexpr float kMoveStddev = 3.0f;      // px: a level's start is known that well. Keeps edges from sliding.
-
+/// Candidate starts are compared there: blurred enough, distinct enough.
+constexpr int kStartLevel = 2;
+/// A step that moves no pixel [px of the level].
+constexpr float kConverged = 0.02f;
+/// On one level; what moves farther jumps to something else [px of the level].
+constexpr float kMaxMove = 5.0f;
+/// Below it the patch shows something else.
+constexpr double kMinCorrelation = 0.7;
+/// Of an image, as the damping takes it [grey levels].
+constexpr float kNoise = 5.0f;
+/// Standard deviation of a level's start [px].
+constexpr float kMoveStddev = 3.0f;
+/// Holds a patch where its level starts: keeps edges from sliding along themselves.
 constexpr float kDamping = kNoise * kNoise / (kMoveStddev * kMoveStddev);
 
 bool inside(const Image<Texel>& image, float x, float y) {

@@ -8,17 +8,24 @@
 #include <vector>
 
 #include "image/interpolation.h"
+#include "odometry/state/robust_weight.h"
 
 namespace ldso {
 namespace {
 
+/// Gauss-Newton steps on each level.
 constexpr int kIterations = 12;
-constexpr std::size_t kMostPixels = 8000;  // Finer levels are not used: a prediction need not be precise.
-constexpr float kHuber = 9.0f;
+/// Levels with more pixels are not used: a prediction need not be precise.
+constexpr std::size_t kMostPixels = 8000;
+/// Share of the pixels that both images have to show.
 constexpr double kMinOverlap = 0.4;
-constexpr double kSearchStep = 2.0;  // [px of the coarsest level]
+/// Distance between the rotations that are tried first [px of the coarsest level].
+constexpr double kSearchStep = 2.0;
+/// So many of them to the left and to the right,
 constexpr int kSearchStepsX = 4;
+/// and up and down.
 constexpr int kSearchStepsY = 2;
+/// Of those so many of the best are refined.
 constexpr std::size_t kFinalists = 3;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -103,10 +110,10 @@ class Level {
     if (s.valid == 0) return;
     const float reference = from_(x, y).intensity;
     const float r = s.intensity - static_cast<float>(state.gain) * reference - static_cast<float>(state.offset);
-    const float weight = std::abs(r) <= kHuber ? 1.0f : kHuber / std::abs(r);
+    const float weight = huber_weight(r);
     const float gx = s.dx * fx;
     const float gy = s.dy * fy;
-    sums.energy += std::abs(r) <= kHuber ? r * r : kHuber * (2 * std::abs(r) - kHuber);
+    sums.energy += huber_energy(r);
     ++sums.used;
     if (!derivatives) return;
     // d(u, v) / d omega for q -> q + omega x q at the normalized point (X, Y, 1).

@@ -11,15 +11,25 @@
 namespace ldso {
 namespace {
 
-constexpr double kCauchy = 2.0;         // [standard deviations]
-constexpr double kMaxIdepth = 5.0;      // [1 / baseline]
-constexpr double kMinDepthRatio = 0.1;  // Depth in the second view over depth in the first.
-constexpr int kSearchMatches = 160;     // So many suffice to find the directions of motion,
-constexpr int kCompareMatches = 500;    // and so many to tell which is best.
+/// Scale of the robust kernel [standard deviations].
+constexpr double kCauchy = 2.0;
+/// Largest inverse depth [1 / baseline].
+constexpr double kMaxIdepth = 5.0;
+/// Least depth in the second view over depth in the first.
+constexpr double kMinDepthRatio = 0.1;
+/// So many matches suffice to find the directions of motion.
+constexpr int kSearchMatches = 160;
+/// So many suffice to tell which direction is best.
+constexpr int kCompareMatches = 500;
+/// Steps from each direction that is tried.
 constexpr int kSearchIterations = 10;
+/// Steps for each of the finalists.
 constexpr int kFinalIterations = 20;
+/// Steps for the best, with all matches.
 constexpr int kPolishIterations = 8;
-constexpr double kDistinctDirection = 0.2;  // [rad]
+/// Motions whose directions are nearer to each other are one [rad].
+constexpr double kDistinctDirection = 0.2;
+/// Distinct motions that are compared in the end.
 constexpr std::size_t kFinalists = 3;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;

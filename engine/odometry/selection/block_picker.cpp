@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "odometry/selection/hash_random.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
@@ -95,7 +95,7 @@ class BlockPicker::Grid {
     static const std::array<Direction, kDirections> kDirectionTable = make_directions();
     std::vector<BestOfBlock> blocks(taken_.size());
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      blocks[i].direction = kDirectionTable[hash_random(seed, i) % kDirections];
+      blocks[i].direction = kDirectionTable[hash_of(i, seed) % kDirections];
       if (taken_.data()[i]) blocks[i].response = std::numeric_limits<float>::infinity();
     }
     return blocks;
@@ -134,7 +134,7 @@ std::vector<SelectedPixel> BlockPicker::pick(double block_side, std::uint64_t se
   std::vector<SelectedPixel> picks;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     if (i > 0) grid.go_to_coarser_scale();
-    grid.pick(candidates_[i], scales_.scales[i], hash_random(seed, i), &picks);
+    grid.pick(candidates_[i], scales_.scales[i], hash_of(i, seed), &picks);
   }
   return picks;
 }

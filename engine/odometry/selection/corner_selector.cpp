@@ -5,8 +5,8 @@
 #include "odometry/selection/corner_detector.h"
 #include "odometry/selection/gradient_map.h"
 #include "odometry/selection/gradient_selector.h"
-#include "odometry/selection/hash_random.h"
 #include "odometry/selection/selection_kernels.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
@@ -45,7 +45,7 @@ std::vector<SelectedPixel> CornerSelector::select(const ImagePyramid& pyramid, s
   }
   const int missing = wanted - static_cast<int>(selected.size());
   const std::vector<SelectedPixel> fill =
-      pick_gradient_pixels(pyramid, squared, medians, settings_, missing, hash_random(settings_.seed, frame_id));
+      pick_gradient_pixels(pyramid, squared, medians, settings_, missing, hash_of(frame_id, settings_.seed));
   selected.insert(selected.end(), fill.begin(), fill.end());
   return selected;
 }

@@ -7,20 +7,22 @@
 
 #include "odometry/selection/block_picker.h"
 #include "odometry/selection/gradient_map.h"
-#include "odometry/selection/hash_random.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
 
+/// Sizes of blocks: d, 2 d and 4 d (DSO section 3.2).
 constexpr int kScales = 3;
-
 // The count is met if it is in [wanted, kAcceptedExcess * wanted]; what is above is dropped at random.
 constexpr double kAcceptedExcess = 1.08;
+// Sides of blocks that are tried for it.
 constexpr int kSearchSteps = 8;
 // Closer points see the same pattern: before blocks become smaller, thresholds are lowered.
 constexpr double kLeastBlockSide = 2.0;
 // Factors on the added threshold, tried in this order until the wanted number is (nearly) there.
 constexpr double kThresholdRelaxations[] = {1.0, 0.5, 0.25};
+// Share of the wanted number that is nearly there.
 constexpr double kEnough = 0.9;
 
 struct SidedCount {
@@ -55,7 +57,7 @@ std::vector<SelectedPixel> thinned_out(std::vector<SelectedPixel> picks, int wan
   if (count <= wanted) return picks;
   int kept = 0;
   for (int i = 0; i < count; ++i) {
-    if (uniform_index(hash_random(seed, i), count - i) < wanted - kept) picks[kept++] = picks[i];
+    if (uniform_index(hash_of(i, seed), count - i) < wanted - kept) picks[kept++] = picks[i];
   }
   picks.resize(kept);
   return picks;
@@ -70,12 +72,12 @@ std::vector<SelectedPixel> pick_from_scales(const GradientScales& scales, double
     const BlockPicker picker(scales, relaxation * added_threshold);
     const SidedCount found = search_block_side(picker, wanted, kLeastBlockSide, guess);
     if (found.count >= kEnough * wanted) {
-      return thinned_out(picker.pick(found.side, seed), wanted, hash_random(seed, kScales));
+      return thinned_out(picker.pick(found.side, seed), wanted, hash_of(kScales, seed));
     }
   }
   // Too little texture at any spacing: whatever exceeds the lowest thresholds.
   const BlockPicker picker(scales, kThresholdRelaxations[std::size(kThresholdRelaxations) - 1] * added_threshold);
-  return thinned_out(picker.pick(1.0, seed), wanted, hash_random(seed, kScales));
+  return thinned_out(picker.pick(1.0, seed), wanted, hash_of(kScales, seed));
 }
 
 }  // namespace
@@ -103,7 +105,7 @@ std::vector<SelectedPixel> GradientSelector::select(const ImagePyramid& pyramid,
   check_pyramid(pyramid, frame_id);
   const std::vector<Image<float>> squared = selection_gradients(pyramid);
   const Image<float> medians = block_medians(squared[0], settings_.block_size);
-  return pick_gradient_pixels(pyramid, squared, medians, settings_, wanted, hash_random(settings_.seed, frame_id));
+  return pick_gradient_pixels(pyramid, squared, medians, settings_, wanted, hash_of(frame_id, settings_.seed));
 }
 
 std::vector<SelectedPixel> select_gradient_pixels(const Image<Texel>& level, int wanted, std::uint64_t seed,
@@ -111,7 +113,7 @@ std::vector<SelectedPixel> select_gradient_pixels(const Image<Texel>& level, int
   const Image<float> squared = squared_gradients(level, kSelectionMargin, kSelectionClearance);
   GradientScales scales{{}, block_medians(squared, settings.block_size), settings.block_size};
   scales.scales.assign(kScales, {&level, &squared, 0});
-  return pick_from_scales(scales, settings.gradient_threshold, wanted, hash_random(seed));
+  return pick_from_scales(scales, settings.gradient_threshold, wanted, hash_of(seed));
 }
 
 }  // namespace ldso

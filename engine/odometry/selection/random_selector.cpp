@@ -1,6 +1,6 @@
 #include "odometry/selection/random_selector.h"
 
-#include "odometry/selection/hash_random.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
@@ -31,11 +31,11 @@ std::vector<SelectedPixel> RandomSelector::select(const ImagePyramid& pyramid, s
   std::vector<SelectedPixel> selected;
   if (columns <= 0 || rows <= 0) return selected;
   Image<std::uint8_t> taken(level.width(), level.height(), 0);
-  const std::uint64_t seed = hash_random(settings_.seed, frame_id);
+  const std::uint64_t seed = hash_of(frame_id, settings_.seed);
   const std::int64_t trials = std::int64_t{kTrialsPerPixel} * wanted;
   for (std::int64_t i = 0; i < trials && static_cast<int>(selected.size()) < wanted; ++i) {
-    const int x = kSelectionMargin + uniform_index(hash_random(seed, 2 * i), columns);
-    const int y = kSelectionMargin + uniform_index(hash_random(seed, 2 * i + 1), rows);
+    const int x = kSelectionMargin + uniform_index(hash_of(2 * i, seed), columns);
+    const int y = kSelectionMargin + uniform_index(hash_of(2 * i + 1, seed), rows);
     if (taken(x, y) || !has_gradient(level(x, y)) || !is_clear(level, x, y)) continue;
     taken(x, y) = 1;
     selected.push_back({x, y, false, 1.0f});

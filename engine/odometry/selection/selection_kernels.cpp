@@ -32,7 +32,7 @@ bool squared_gradient_row(const float* HWY_RESTRICT texels, int count, float* HW
     least_valid = hn::Min(least_valid, valid);
   }
   const bool all_valid = hn::AllTrue(d, hn::Ge(least_valid, one));
-  return reference::squared_gradient_row(texels + 4 * i, count - i, squared + i) && all_valid;
+  return squared_gradient_row_reference(texels + 4 * i, count - i, squared + i) && all_valid;
 }
 
 // Appends i + k for each set lane k. Not CompressStore: writing to memory it is microcoded on AMD's AVX-512.
@@ -77,7 +77,7 @@ int find_peaks(const float* HWY_RESTRICT above, const float* HWY_RESTRICT values
     const auto after = hn::Max(greatest_of_three(below + i), hn::LoadU(d, values + i + 1));
     end = append_lanes(hn::And(hn::Gt(value, before), hn::Ge(value, after)), i, end);
   }
-  const int rest = reference::find_peaks(above + i - 1, values + i - 1, below + i - 1, count - i + 1, threshold, end);
+  const int rest = find_peaks_reference(above + i - 1, values + i - 1, below + i - 1, count - i + 1, threshold, end);
   for (int k = 0; k < rest; ++k) end[k] += i - 1;
   return static_cast<int>(end - indices) + rest;
 }
@@ -93,7 +93,7 @@ void tensor_row(const float* HWY_RESTRICT texels, int count, TensorRow out) {
     hn::StoreU(hn::Mul(dx, dy), d, out.xy + i);
     hn::StoreU(hn::Mul(dy, dy), d, out.yy + i);
   }
-  reference::tensor_row(texels + 4 * i, count - i, {out.xx + i, out.xy + i, out.yy + i});
+  tensor_row_reference(texels + 4 * i, count - i, {out.xx + i, out.xy + i, out.yy + i});
 }
 
 namespace {
@@ -141,7 +141,7 @@ float corner_score_row(const TensorRow* rows, const float* usable, int count, Te
   const Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const int end = count - kTensorRadius;
-  if (end - kTensorRadius < lanes) return reference::corner_score_row(rows, usable, count, scratch, scores);
+  if (end - kTensorRadius < lanes) return corner_score_row_reference(rows, usable, count, scratch, scores);
   column_sums(rows, &TensorRow::xx, count, scratch.xx);
   column_sums(rows, &TensorRow::xy, count, scratch.xy);
   column_sums(rows, &TensorRow::yy, count, scratch.yy);

@@ -1,7 +1,7 @@
 #pragma once
 
 // The per-pixel loops of point selection, on rows. Dispatched at run time to the widest instruction set
-// (Highway); the scalar references of the same names in ldso::reference give bit-identical results.
+// (Highway); the scalar references give bit-identical results and do what is left of a row.
 // Texel rows are passed as interleaved floats: intensity, dx, dy, valid.
 
 #include <cstdint>
@@ -41,13 +41,13 @@ void tensor_row(const float* texels, int count, TensorRow out);
 /// `scratch` holds `count` elements a row. Returns the greatest score.
 float corner_score_row(const TensorRow* rows, const float* usable, int count, TensorRow scratch, float* scores);
 
-namespace reference {
-bool squared_gradient_row(const float* texels, int count, float* squared);
-int find_above(const float* values, const float* thresholds, int count, std::int32_t* indices);
-int find_peaks(const float* above, const float* values, const float* below, int count, float threshold,
-               std::int32_t* indices);
-void tensor_row(const float* texels, int count, TensorRow out);
-float corner_score_row(const TensorRow* rows, const float* usable, int count, TensorRow scratch, float* scores);
-}  // namespace reference
+/// Scalar references.
+bool squared_gradient_row_reference(const float* texels, int count, float* squared);
+int find_above_reference(const float* values, const float* thresholds, int count, std::int32_t* indices);
+int find_peaks_reference(const float* above, const float* values, const float* below, int count, float threshold,
+                         std::int32_t* indices);
+void tensor_row_reference(const float* texels, int count, TensorRow out);
+float corner_score_row_reference(const TensorRow* rows, const float* usable, int count, TensorRow scratch,
+                                 float* scores);
 
 }  // namespace ldso

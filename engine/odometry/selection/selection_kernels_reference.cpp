@@ -3,9 +3,9 @@
 
 #include "odometry/selection/selection_kernels.h"
 
-namespace ldso::reference {
+namespace ldso {
 
-bool squared_gradient_row(const float* texels, int count, float* squared) {
+bool squared_gradient_row_reference(const float* texels, int count, float* squared) {
   bool all_valid = true;
   for (int i = 0; i < count; ++i) {
     const float* texel = texels + 4 * i;
@@ -16,7 +16,7 @@ bool squared_gradient_row(const float* texels, int count, float* squared) {
   return all_valid;
 }
 
-int find_above(const float* values, const float* thresholds, int count, std::int32_t* indices) {
+int find_above_reference(const float* values, const float* thresholds, int count, std::int32_t* indices) {
   int found = 0;
   for (int i = 0; i < count; ++i) {
     if (values[i] > thresholds[i]) indices[found++] = i;
@@ -24,8 +24,8 @@ int find_above(const float* values, const float* thresholds, int count, std::int
   return found;
 }
 
-int find_peaks(const float* above, const float* values, const float* below, int count, float threshold,
-               std::int32_t* indices) {
+int find_peaks_reference(const float* above, const float* values, const float* below, int count, float threshold,
+                         std::int32_t* indices) {
   int found = 0;
   for (int i = 1; i < count - 1; ++i) {
     const float before = std::max({above[i - 1], above[i], above[i + 1], values[i - 1], threshold});
@@ -35,7 +35,7 @@ int find_peaks(const float* above, const float* values, const float* below, int 
   return found;
 }
 
-void tensor_row(const float* texels, int count, TensorRow out) {
+void tensor_row_reference(const float* texels, int count, TensorRow out) {
   for (int i = 0; i < count; ++i) {
     const float dx = texels[4 * i + 1];
     const float dy = texels[4 * i + 2];
@@ -61,7 +61,8 @@ float box_mean(const float* sums, int i) {
 
 }  // namespace
 
-float corner_score_row(const TensorRow* rows, const float* usable, int count, TensorRow scratch, float* scores) {
+float corner_score_row_reference(const TensorRow* rows, const float* usable, int count, TensorRow scratch,
+                                 float* scores) {
   for (int i = 0; i < count; ++i) {
     scratch.xx[i] = column_sum(rows, &TensorRow::xx, i);
     scratch.xy[i] = column_sum(rows, &TensorRow::xy, i);
@@ -82,4 +83,4 @@ float corner_score_row(const TensorRow* rows, const float* usable, int count, Te
   return best;
 }
 
-}  // namespace ldso::reference
+}  // namespace ldso

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "odometry/selection/hash_random.h"
+#include "util/hash.h"
 
 namespace ldso {
 namespace {
@@ -16,7 +16,7 @@ const int kWidths[] = {1, 2, 3, 5, 7, 8, 15, 16, 17, 20, 21, 33, 63, 64, 65, 641
 
 // Coarse values, so that equal neighbours and values equal to thresholds occur.
 float random_value(std::uint64_t seed, int i, double low, double high) {
-  return static_cast<float>(low + std::floor(4 * (high - low) * unit_interval(hash_random(seed, i))) / 4);
+  return static_cast<float>(low + std::floor(4 * (high - low) * unit_interval(hash_of(i, seed))) / 4);
 }
 
 std::vector<float> random_row(int count, std::uint64_t seed, double low, double high) {
@@ -31,7 +31,7 @@ std::vector<float> random_texels(int count, std::uint64_t seed, double share_inv
     texels[4 * i] = random_value(seed, 4 * i, 0, 255);
     texels[4 * i + 1] = random_value(seed, 4 * i + 1, -60, 60) * 0.37f;
     texels[4 * i + 2] = random_value(seed, 4 * i + 2, -60, 60) * 0.41f;
-    texels[4 * i + 3] = unit_interval(hash_random(seed, 4 * i + 3)) < share_invalid ? 0.0f : 1.0f;
+    texels[4 * i + 3] = unit_interval(hash_of(4 * i + 3, seed)) < share_invalid ? 0.0f : 1.0f;
   }
   return texels;
 }
@@ -55,7 +55,7 @@ TEST_P(SelectionKernels, SquaredGradientsEqualTheReference) {
     for (const double share_invalid : {0.0, 0.1}) {
       const std::vector<float> texels = random_texels(width, width, share_invalid);
       std::vector<float> expected(width), actual(width);
-      const bool all_valid = reference::squared_gradient_row(texels.data(), width, expected.data());
+      const bool all_valid = squared_gradient_row_reference(texels.data(), width, expected.data());
       EXPECT_EQ(squared_gradient_row(texels.data(), width, actual.data()), all_valid) << width;
       EXPECT_EQ(actual, expected) << width;
       if (share_invalid == 0) {
@@ -80,7 +80,7 @@ TEST_P(SelectionKernels, FindAboveEqualsTheReference) {
   for (const int width : kWidths) {
     const std::vector<float> values = random_row(width, 1, 0, 10), thresholds = random_row(width, 2, 2, 8);
     std::vector<std::int32_t> expected(width), actual(width);
-    expected.resize(reference::find_above(values.data(), thresholds.data(), width, expected.data()));
+    expected.resize(find_above_reference(values.data(), thresholds.data(), width, expected.data()));
     actual.resize(find_above(values.data(), thresholds.data(), width, actual.data()));
     EXPECT_EQ(actual, expected) << width;
   }
@@ -92,7 +92,7 @@ TEST_P(SelectionKernels, FindPeaksEqualsTheReference) {
       const std::vector<float> above = random_row(width, 10 + seed, 0, 3), values = random_row(width, 20 + seed, 0, 4),
                                below = random_row(width, 30 + seed, 0, 3);
       std::vector<std::int32_t> expected(width), actual(width);
-      expected.resize(reference::find_peaks(above.data(), values.data(), below.data(), width, 1.5f, expected.data()));
+      expected.resize(find_peaks_reference(above.data(), values.data(), below.data(), width, 1.5f, expected.data()));
       actual.resize(find_peaks(above.data(), values.data(), below.data(), width, 1.5f, actual.data()));
       EXPECT_EQ(actual, expected) << width;
       if (width == 641) {
@@ -112,7 +112,7 @@ TEST_P(SelectionKernels, TensorRowsEqualTheReference) {
   for (const int width : kWidths) {
     const std::vector<float> texels = random_texels(width, 3, 0);
     TensorStorage expected(width), actual(width);
-    reference::tensor_row(texels.data(), width, expected.row());
+    tensor_row_reference(texels.data(), width, expected.row());
     tensor_row(texels.data(), width, actual.row());
     EXPECT_EQ(actual.xx, expected.xx);
     EXPECT_EQ(actual.xy, expected.xy);
@@ -131,7 +131,7 @@ TEST_P(SelectionKernels, CornerScoresEqualTheReference) {
     const std::vector<float> usable = random_row(width, 7, -1, 4);
     TensorStorage scratch(width);
     std::vector<float> expected(width, 9.0f), actual(width, 9.0f);
-    const float best = reference::corner_score_row(rows, usable.data(), width, scratch.row(), expected.data());
+    const float best = corner_score_row_reference(rows, usable.data(), width, scratch.row(), expected.data());
     EXPECT_EQ(corner_score_row(rows, usable.data(), width, scratch.row(), actual.data()), best) << width;
     EXPECT_EQ(actual, expected) << width;
     if (width > 2 * kTensorSide) {

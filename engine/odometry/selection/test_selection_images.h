@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "image/frame.h"
-#include "odometry/selection/hash_random.h"
+#include "util/hash.h"
 
 namespace ldso::selection_test {
 
@@ -54,7 +54,7 @@ inline ImagePyramid pyramid_of(Image<float> grey, int levels = 3) {
 }
 
 inline double lattice_value(int x, int y, std::uint64_t seed) {
-  return unit_interval(hash_random(seed, hash_random(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y))));
+  return unit_interval(hash_of(hash_of(static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(x)), seed));
 }
 
 /// Smooth noise in [0, 1] whose structures are about `period` pixels wide.

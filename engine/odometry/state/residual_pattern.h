@@ -16,18 +16,12 @@ struct PatternOffset {
 inline constexpr std::array<PatternOffset, kPatternSize> kPattern = {
     {{0, -2}, {-1, -1}, {1, -1}, {-2, 0}, {0, 0}, {2, 0}, {-1, 1}, {0, 2}}};
 
-/// Distance from the centre to the outermost pixel of the pattern [px].
-inline constexpr int kPatternRadius = 2;
-
-/// Grey levels beyond which a residual counts linearly (DSO section 2.2).
-inline constexpr float kHuberThreshold = 9.0f;
-
-/// c of the gradient weight c^2 / (c^2 + |grad|^2) (DSO eq. 7).
-inline constexpr float kGradientWeight = 50.0f;
-
 /// The eight pixels of a pattern and the residuals of a point share errors (interpolation, the host's noise): the
 /// variance that counting them as independent promises is too small by this. Measured on rendered sequences.
 inline constexpr double kResidualCorrelation = 8;
+
+/// Least root mean square residual that is believed [grey levels].
+inline constexpr double kLeastResidualRmse = 0.5;
 
 /// The pattern's intensities and gradient weights in the host keyframe.
 struct alignas(32) PatternPatch {

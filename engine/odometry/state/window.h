@@ -3,6 +3,7 @@
 // The state that the sliding-window optimization works on: keyframes, intrinsics, and the prior that
 // marginalized points and keyframes left behind.
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -35,6 +36,13 @@ struct Window {
   /// Motion of a keyframe's camera while its image was read.
   ReadoutMotion readout(const Keyframe& keyframe) const { return readout_s * keyframe.velocity; }
 
+  /// By how much variances are larger than those that follow from the Hessians, which take residuals as independent and
+  /// as large as one grey level.
+  double residual_variance() const {
+    const double believed = std::max(kLeastResidualRmse, rmse);
+    return kResidualCorrelation * believed * believed;
+  }
+
   PinholeIntrinsics intrinsics() const { return {width, height, camera[0], camera[1], camera[2], camera[3]}; }
 
   /// Difference of the state from its point of linearization, all variables in order.
@@ -44,6 +52,15 @@ struct Window {
     for (int i = 0; i < size(); ++i) d.segment<kFrameDof>(offset(i)) = keyframes[i]->state.delta;
     return d;
   }
+
+  /// Appends a keyframe; all points get a residual into it.
+  Keyframe& append(std::shared_ptr<const PreparedFrame> frame, const SE3d& T_c_w, const Brightness& brightness);
+
+  /// Takes out all residuals into `target`.
+  void forget(const Keyframe& target);
+
+  /// Takes out the newest keyframe as if it had never been appended. Nothing may have been marginalized since.
+  void drop_newest();
 
   void renumber() {
     for (int i = 0; i < size(); ++i) keyframes[i]->index = i;

@@ -21,6 +21,12 @@ void WindowPrior::append(int count) {
   b.conservativeResizeLike(Eigen::VectorXd::Zero(old + count));
 }
 
+void WindowPrior::drop_last(int count) {
+  const Eigen::Index left = b.size() - count;
+  H.conservativeResize(left, left);
+  b.conservativeResize(left);
+}
+
 void WindowPrior::add(const Eigen::MatrixXd& H_new, const Eigen::VectorXd& b_new, const Eigen::VectorXd& delta) {
   H += H_new;
   b += b_new - H_new * delta;

@@ -17,6 +17,9 @@ struct WindowPrior {
   /// Appends `count` variables without information.
   void append(int count);
 
+  /// Takes out the last `count` variables, of which nothing is known.
+  void drop_last(int count);
+
   /// Adds information on all variables; `b` is taken at the current state, `delta` is its distance from the
   /// point of linearization.
   void add(const Eigen::MatrixXd& H_new, const Eigen::VectorXd& b_new, const Eigen::VectorXd& delta);

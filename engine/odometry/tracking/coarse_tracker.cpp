@@ -7,21 +7,28 @@
 #include <limits>
 
 #include "geometry/rolling_shutter.h"
+#include "odometry/state/robust_weight.h"
 
 namespace ldso {
 namespace {
 
+/// Points that a thread takes at once.
 constexpr int kChunkSize = 1024;
+/// Steps on each level, finest first: coarse ones are cheap and have the longest way to go.
 constexpr std::array<int, 6> kMaxIterations = {10, 20, 50, 50, 50, 50};
+/// Of Levenberg-Marquardt.
 constexpr double kFirstLambda = 0.01;
 /// Steps shorter than this change no pixel.
 constexpr double kSmallStep = 1e-4;
 /// While more residuals than this saturate, the cutoff is doubled.
 constexpr double kMostSaturated = 0.6;
+/// The cutoff is doubled up to so many times itself.
 constexpr double kMostCutoffFactor = 50;
-/// Brightness beyond these is no brightness change of a camera.
+/// A factor of brightness beyond e^1.2, after that of the exposures, is no change of a camera's brightness.
 constexpr double kLargestLogBrightness = 1.2;
+/// Nor is an offset beyond this [grey levels].
 constexpr double kLargestOffset = 200;
+/// Fewer points in view determine none of the eight parameters.
 constexpr int kLeastPoints = 10;
 
 using Matrix8 = Eigen::Matrix<double, kAlignmentDof, kAlignmentDof>;

@@ -8,8 +8,17 @@
 
 namespace ldso {
 
-/// Poses T_new_ref from the last frame's `T_last_ref` and the motion `T_last_previous` before it: constant motion,
-/// double, half, none, none since the keyframe, then constant motion with small rotations in 26 directions.
-std::vector<SE3d> motion_hypotheses(const SE3d& T_last_ref, const SE3d& T_last_previous);
+/// How many times as long as the step before it a step of `seconds` is: as many times as far the camera goes if it
+/// moves on as it did. 1 to the last bit for steps that may be even: cameras take images at even times, but the
+/// timestamps they give them waver. 1 as well if the times say nothing (not rising, not finite), and never so large
+/// that it would be a guess: after a long gap nothing is known of the motion.
+double step_ratio(double seconds, double last_seconds);
+
+/// A motion that goes on for `ratio` times as long; itself for 1.
+SE3d motion_over(const SE3d& motion, double ratio);
+
+/// Poses T_new_ref from the last frame's `T_last_ref` and the motion expected since, `T_new_last`: that motion, twice
+/// that far, half as far, none, none since the keyframe, then that motion with small rotations in 26 directions.
+std::vector<SE3d> motion_hypotheses(const SE3d& T_last_ref, const SE3d& T_new_last);
 
 }  // namespace ldso

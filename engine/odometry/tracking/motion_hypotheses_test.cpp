@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "odometry/test_synthetic_scene.h"
@@ -59,6 +61,36 @@ TEST_F(MotionHypotheses, AllDiffer) {
     for (std::size_t j = 0; j < i; ++j)
       EXPECT_GT((poses_[i] * poses_[j].inverse()).log().norm(), 1e-4) << i << " " << j;
   }
+}
+
+TEST(StepRatio, IsOneForStepsThatMayBeEven) {
+  EXPECT_EQ(step_ratio(0.1, 0.1), 1);
+  EXPECT_EQ(step_ratio(0.1 + 1e-9, 0.1), 1);
+  EXPECT_EQ(step_ratio(0.12, 0.085), 1);
+  EXPECT_EQ(step_ratio(0.085, 0.12), 1);
+}
+
+TEST(StepRatio, IsThatOfTheTimesWhereAFrameIsMissing) {
+  EXPECT_DOUBLE_EQ(step_ratio(0.2, 0.1), 2);
+  EXPECT_DOUBLE_EQ(step_ratio(0.3, 0.1), 3);
+  EXPECT_DOUBLE_EQ(step_ratio(0.1, 0.2), 0.5);
+}
+
+TEST(StepRatio, IsNoGuessAfterALongGap) { EXPECT_EQ(step_ratio(100, 0.1), step_ratio(1, 0.1)); }
+
+TEST(StepRatio, IsOneWhereTheTimesSayNothing) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (const double seconds : {0.0, -0.1, kNaN, std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(step_ratio(seconds, 0.1), 1) << seconds;
+  }
+  for (const double seconds : {0.0, -0.1, kNaN}) EXPECT_EQ(step_ratio(0.1, seconds), 1) << seconds;
+}
+
+TEST_F(MotionHypotheses, AMotionGoesOnForLonger) {
+  EXPECT_EQ(motion_over(T_last_previous_, 1).matrix(), T_last_previous_.matrix());
+  expect_pose(motion_over(T_last_previous_, 3), T_last_previous_ * T_last_previous_ * T_last_previous_);
+  const SE3d half = motion_over(T_last_previous_, 0.5);
+  expect_pose(half * half, T_last_previous_);
 }
 
 }  // namespace

@@ -8,8 +8,12 @@
 namespace ldso {
 namespace {
 
+/// Of an inverse depth: below it, or if it is no number, nothing is known.
+constexpr float kLeastHessian = 1e-3f;
+
 FinishedKeyframe finish(const Window& window, const Keyframe& keyframe, bool with_active) {
   FinishedKeyframe finished;
+  finished.camera = window.intrinsics();
   finished.frame = keyframe.frame;
   finished.corners = keyframe.corners;
   KeyframeUpdate& update = finished.update;
@@ -20,7 +24,8 @@ FinishedKeyframe finish(const Window& window, const Keyframe& keyframe, bool wit
   update.points = keyframe.finished;
   if (!with_active) return finished;
   for (const ActivePoint& point : keyframe.points) {
-    if (point.good_residuals >= kLeastGoodResiduals) update.points.push_back(make_map_point(point));
+    if (point.good_residuals >= kLeastGoodResiduals)
+      update.points.push_back(make_map_point(point, window.residual_variance()));
   }
   return finished;
 }
@@ -54,13 +59,13 @@ std::vector<FinishedKeyframe> finish_some(const Window& window, bool all) {
 
 }  // namespace
 
-MapPoint make_map_point(const ActivePoint& point) {
+MapPoint make_map_point(const ActivePoint& point, double residual_variance) {
   MapPoint result;
   result.u = point.u;
   result.v = point.v;
   result.idepth = point.idepth;
-  // The residuals of a pattern are correlated: one pixel's noise of one grey level is the unit.
-  result.idepth_stddev = std::sqrt(1.0f / std::max(point.idepth_hessian, 1e-3f));
+  const float hessian = point.idepth_hessian > kLeastHessian ? point.idepth_hessian : kLeastHessian;
+  result.idepth_stddev = static_cast<float>(std::sqrt(residual_variance)) * std::sqrt(1.0f / hessian);
   result.intensity = point.patch.intensity[4];
   result.is_corner = point.is_corner;
   return result;

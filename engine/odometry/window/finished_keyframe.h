@@ -17,12 +17,13 @@ inline constexpr int kLeastGoodResiduals = 4;
 
 struct FinishedKeyframe {
   KeyframeUpdate update;
+  PinholeIntrinsics camera;                    ///< As estimated when it left: its points' pixels are those of this one.
   std::vector<Eigen::Vector2f> corners;        ///< All corners that were selected in it, with or without depth.
   std::shared_ptr<const PreparedFrame> frame;  ///< Its image, from which corners can be described.
 };
 
-/// A point of the map from an active one.
-MapPoint make_map_point(const ActivePoint& point);
+/// A point of the map from an active one. `residual_variance`: of the window that optimized it.
+MapPoint make_map_point(const ActivePoint& point, double residual_variance);
 
 /// Those that are flagged as leaving, oldest first, with constraints to those that stay (to each one to those that
 /// come after it among the leaving ones, too).

@@ -124,7 +124,7 @@ TEST_F(Gauge, StaysFreeAfterManyMarginalizations) {
   constexpr int kFrames = 9, kWindow = 4;
   const auto frames = test::render_path(scene_, kFrames);
   WindowSettings settings;
-  WindowOptimizer optimizer(settings, pool_);
+  WindowOptimizer optimizer(pool_);
   Marginalizer marginalizer(settings, pool_);
   Window window = test::empty_window(scene_.camera());
   window.camera_prior.setConstant(1e4);

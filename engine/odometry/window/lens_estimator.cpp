@@ -13,11 +13,13 @@ namespace {
 
 /// Keyframes from one window that is used to the next. Windows overlap: each residual counts once on the average.
 constexpr int kSpacing = 3;
+/// Smaller windows say too little.
 constexpr int kLeastKeyframes = 5;
 /// Eigenvalues of the scaled system of the frames below this share of the largest are its gauge.
 constexpr double kGaugeShare = 1e-7;
-/// Precision of the given lens: standard deviation of the focal lengths as a share of them, and of the coefficient.
+/// Standard deviation of the given focal lengths, as a share of them.
 constexpr double kFocalShare = 0.05;
+/// Of the given first distortion coefficient.
 constexpr double kRadialStddev = 0.2;
 /// Of the readout [s].
 constexpr double kReadoutStddev = 0.05;

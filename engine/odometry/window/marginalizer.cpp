@@ -49,7 +49,7 @@ void Marginalizer::marginalize_points(Window& window) {
     for (ActivePoint& point : keyframe->points) {
       point.flagged = (keyframe->leaving || leaves_view(point)) && is_reliable(point);
       if (!point.flagged) continue;
-      keyframe->finished.push_back(make_map_point(point));
+      keyframe->finished.push_back(make_map_point(point, window.residual_variance()));
       keyframe->in_prior = true;
       for (PointResidual& residual : point.residuals) residual.target->in_prior = true;
     }
@@ -72,11 +72,7 @@ std::vector<FinishedKeyframe> Marginalizer::remove_keyframes(Window& window) {
       ++i;
       continue;
     }
-    for (auto& keyframe : window.keyframes) {
-      for (ActivePoint& point : keyframe->points) {
-        std::erase_if(point.residuals, [&](const PointResidual& r) { return r.target == leaving; });
-      }
-    }
+    window.forget(*leaving);
     window.prior.marginalize(Window::offset(i), kFrameDof, leaving->prior,
                              -leaving->prior.cwiseProduct(leaving->prior_mean));
     if (known.H.rows() == window.dim()) {

@@ -13,7 +13,7 @@ namespace ldso {
 
 class Marginalizer {
  public:
-  Marginalizer(const WindowSettings& settings, ThreadPool& pool) : settings_(settings), pool_(pool), builder_(pool) {}
+  Marginalizer(const WindowSettings& settings, ThreadPool& pool) : settings_(settings), builder_(pool) {}
 
   /// Removes points that left the view or whose host leaves: well determined ones into the prior and the map, the rest
   /// without a trace. Needs the linearization that WindowOptimizer::optimize() left.
@@ -28,7 +28,6 @@ class Marginalizer {
   void marginalize_points(Window& window);
 
   WindowSettings settings_;
-  ThreadPool& pool_;
   NormalEquationsBuilder builder_;
 };
 

@@ -28,7 +28,7 @@ class MarginalizerTest : public testing::Test {
       for (ActivePoint& point : keyframe->points) point.good_residuals = 4;
     }
     test::disturb(window_, 0.002, 0.001, 0, 0, 0.01, 2);
-    WindowOptimizer(settings_, pool_).optimize(window_, 4);
+    WindowOptimizer(pool_).optimize(window_, 4);
     // optimize() has not built normal equations at its result: that gives the points their Hessians.
     const auto chunks = chunk_points(window_, [](const ActivePoint&) { return true; });
     NormalEquationsBuilder(pool_).build(window_, FramePairs(window_), chunks, 0);
@@ -113,7 +113,7 @@ TEST_F(MarginalizerTest, ThePriorIsTheWeightedSchurComplementOfTheLeavingPoints)
   for (const MapPoint& point : updates[0].update.points) {
     EXPECT_GT(point.idepth, 0);
     EXPECT_GT(point.idepth_stddev, 0);
-    EXPECT_LT(point.idepth_stddev, 1 / std::sqrt(50.0f));
+    EXPECT_LT(point.idepth_stddev, std::sqrt(window_.residual_variance() / settings_.least_idepth_hessian));
   }
 }
 

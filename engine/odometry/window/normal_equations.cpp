@@ -6,6 +6,7 @@
 namespace ldso {
 namespace {
 
+/// Points of a chunk: the Schur complement of so many fits a processor's cache.
 constexpr int kChunkSize = 96;
 /// Below this the inverse depth is not determined by its residuals.
 constexpr float kLeastHessian = 1e-4f;

@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "odometry/state/residual_pattern.h"
 #include "odometry/window/gauge.h"
 
 namespace ldso {
 namespace {
 
-/// Least root mean square residual that is believed [grey levels].
-constexpr double kLeastRmse = 0.5;
 /// Of the poses of a window that was not optimized.
 constexpr double kUnknownVariance = 1;
 /// Largest deviation of the unit from one keyframe to the next: without any baseline it is not determined at all.
@@ -36,8 +33,7 @@ RelativePoseCovariance::RelativePoseCovariance(const Window& window) : window_(w
   const Eigen::VectorXd scale = (H.diagonal().array().abs() + 1e-9).sqrt().inverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * H * scale.asDiagonal();
   const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(H.rows(), H.cols()));
-  const double rmse = std::max(kLeastRmse, window.rmse);
-  covariance_ = kResidualCorrelation * rmse * rmse * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  covariance_ = window.residual_variance() * (scale.asDiagonal() * inverse * scale.asDiagonal());
   log_scale_variance_ = drift_of_scale();
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -206,7 +207,7 @@ class RelativePoseCovarianceOfImages : public testing::Test {
     }
     window.camera_prior.setConstant(1e4);
     // The Hessian is that of the state before the last step: the second time that is the optimum.
-    for (int i = 0; i < 2; ++i) WindowOptimizer(settings_, pool_).optimize(window, 20);
+    for (int i = 0; i < 2; ++i) WindowOptimizer(pool_).optimize(window, 20);
     EXPECT_EQ(window.hessian.rows(), window.dim());
     EXPECT_GT(window.rmse, 0);
     return window;
@@ -214,7 +215,6 @@ class RelativePoseCovarianceOfImages : public testing::Test {
 
   static std::unique_ptr<test::SyntheticScene> scene_;
   static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
-  WindowSettings settings_;
   ThreadPool pool_{1};
 };
 
@@ -361,6 +361,37 @@ TEST_F(FinishedKeyframeTest, AtTheEndAllLeave) {
   EXPECT_TRUE(finish_all(bare_window(0)).empty());
 }
 
+TEST_F(FinishedKeyframeTest, HasItsOwnCamera) {
+  window_.camera << 301, 302, 160, 121;
+  window_.keyframes[2]->leaving = true;
+  const std::vector<FinishedKeyframe> leaving = finish_leaving(window_);
+  ASSERT_EQ(leaving.size(), 1u);
+  window_ = bare_window(0);
+  EXPECT_EQ(leaving[0].camera.fx, 301);
+  EXPECT_EQ(leaving[0].camera.fy, 302);
+  EXPECT_EQ(leaving[0].camera.cx, 160);
+  EXPECT_EQ(leaving[0].camera.cy, 121);
+}
+
+TEST(MapPointTest, ItsDeviationGrowsWithTheResiduals) {
+  ActivePoint point;
+  point.idepth_hessian = 400;
+  EXPECT_FLOAT_EQ(make_map_point(point, 9).idepth_stddev, 3 / 20.0f);
+  Window window = bare_window(2);
+  window.rmse = 2;
+  EXPECT_EQ(window.residual_variance(), kResidualCorrelation * 4);
+  window.rmse = 0;  // Is not believed.
+  EXPECT_GT(window.residual_variance(), 1);
+}
+
+TEST(MapPointTest, ItsDeviationIsFiniteWhateverItsHessian) {
+  ActivePoint point;
+  for (const float hessian : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    point.idepth_hessian = hessian;
+    EXPECT_TRUE(std::isfinite(make_map_point(point, 1).idepth_stddev)) << hessian;
+  }
+}
+
 TEST_F(FinishedKeyframeTest, KeepsImageCornersAndPoints) {
   window_.keyframes[2]->leaving = true;
   const std::vector<FinishedKeyframe> leaving = finish_leaving(window_);
@@ -377,7 +408,8 @@ TEST_F(FinishedKeyframeTest, KeepsImageCornersAndPoints) {
   const MapPoint& point = all[2].update.points[1];
   EXPECT_EQ(point.u, 33);
   EXPECT_EQ(point.idepth, 0.25f);
-  EXPECT_FLOAT_EQ(point.idepth_stddev, 1 / 20.0f);
+  // Residuals of 1 grey level, correlated.
+  EXPECT_FLOAT_EQ(point.idepth_stddev, static_cast<float>(std::sqrt(kResidualCorrelation)) / 20.0f);
   EXPECT_TRUE(point.is_corner);
   EXPECT_EQ(all[4].corners, window_.keyframes[4]->corners);
 }

@@ -14,7 +14,23 @@ namespace {
 /// 0.04 to 0.24 m over seven first frames, now it is 0.05 to 0.06 m); with 1e-3 they follow noise where the camera
 /// drives straight on (a street's ATE doubles).
 constexpr double kFirstLambda = 1e-2;
+/// It falls no further.
 constexpr double kLeastLambda = 1e-5;
+/// A step that is accepted divides it by four, one that is not multiplies it by a hundred.
+constexpr double kLambdaDown = 0.25;
+constexpr double kLambdaUp = 100;
+/// A step is small if the root mean square over the keyframes of all three is: of the brightness a,
+constexpr double kSmallBrightness = 6e-4;
+/// of the rotation [rad],
+constexpr double kSmallRotation = 6e-5;
+/// and of the translation, of the mean depth.
+constexpr double kSmallTranslation = 6e-5;
+/// The threshold of a keyframe's outliers lies halfway between a fixed one of the pattern's energy's root [grey levels]
+constexpr float kFixedOutlierRoot = 26.0f;
+/// and that of the energy which this share of its residuals stay below,
+constexpr double kOutlierQuantile = 0.7;
+/// times this.
+constexpr float kOutlierSlack = 1.5f;
 /// From this iteration on the step may not move along the gauge (DSO section 2.3).
 constexpr int kFirstGaugeFreeIteration = 2;
 
@@ -58,8 +74,8 @@ bool is_small(const Window& window, const Eigen::VectorXd& step) {
   }
   const double frames = window.size();
   const double idepth = points > 0 ? idepth_sum / points : 1.0;
-  return std::sqrt(brightness / frames) < 6e-4 && std::sqrt(rotation / frames) < 6e-5 &&
-         std::sqrt(translation / frames) * idepth < 6e-5;
+  return std::sqrt(brightness / frames) < kSmallBrightness && std::sqrt(rotation / frames) < kSmallRotation &&
+         std::sqrt(translation / frames) * idepth < kSmallTranslation;
 }
 
 /// Energy beyond which a residual into the newest keyframe is an outlier, from the spread of all of them.
@@ -75,9 +91,10 @@ void update_outlier_energy(Window& window) {
     }
   }
   if (energies.empty()) return;
-  const auto middle = energies.begin() + static_cast<std::ptrdiff_t>(0.7 * static_cast<double>(energies.size()));
+  const auto middle =
+      energies.begin() + static_cast<std::ptrdiff_t>(kOutlierQuantile * static_cast<double>(energies.size()));
   std::nth_element(energies.begin(), middle, energies.end());
-  const float threshold = 0.5f * 26.0f + 0.5f * 1.5f * std::sqrt(*middle);
+  const float threshold = 0.5f * kFixedOutlierRoot + 0.5f * kOutlierSlack * std::sqrt(*middle);
   newest.outlier_energy = threshold * threshold;
 }
 
@@ -121,10 +138,10 @@ bool WindowOptimizer::try_step(Window& window, const std::vector<PointChunk>& ch
   if (energy < energy_) {
     window.front = tried;
     energy_ = energy;
-    lambda_ = std::max(kLeastLambda, 0.25 * lambda_);
+    lambda_ = std::max(kLeastLambda, kLambdaDown * lambda_);
   } else {
     restore(window);
-    lambda_ *= 100;
+    lambda_ *= kLambdaUp;
   }
   return true;
 }

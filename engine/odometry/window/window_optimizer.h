@@ -3,7 +3,6 @@
 // Photometric bundle adjustment of the sliding window: Levenberg-Marquardt over intrinsics, poses, brightness
 // and inverse depths with first-estimate Jacobians (DSO section 2.3).
 
-#include "ldso/settings.h"
 #include "odometry/state/window.h"
 #include "odometry/window/normal_equations.h"
 #include "util/thread_pool.h"
@@ -20,8 +19,7 @@ struct OptimizationReport {
 
 class WindowOptimizer {
  public:
-  WindowOptimizer(const WindowSettings& settings, ThreadPool& pool)
-      : settings_(settings), pool_(pool), builder_(pool) {}
+  explicit WindowOptimizer(ThreadPool& pool) : pool_(pool), builder_(pool) {}
 
   /// Moves the state to a minimum, then takes out residuals that are no inliers there and fixes the linearization
   /// that marginalization uses.
@@ -32,7 +30,6 @@ class WindowOptimizer {
   Eigen::VectorXd solve(Window& window, const NormalEquations& equations, double lambda, bool fix_gauge) const;
   void settle(Window& window, const std::vector<PointChunk>& chunks, OptimizationReport& report);
 
-  WindowSettings settings_;
   ThreadPool& pool_;
   NormalEquationsBuilder builder_;
   double lambda_ = 0;

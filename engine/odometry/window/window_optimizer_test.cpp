@@ -68,7 +68,6 @@ class WindowOptimizerTest : public testing::Test {
 
   static std::unique_ptr<test::SyntheticScene> scene_;
   static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
-  WindowSettings settings_;
   ThreadPool pool_{1};
 };
 
@@ -88,7 +87,7 @@ TEST_F(WindowOptimizerTest, ConvergesToTheTruthUpToTheGauge) {
   ASSERT_GT(before.rotation, 2e-3);
   ASSERT_GT(before.translation, 0.02);
   ASSERT_GT(before.idepth, 0.015);
-  const OptimizationReport report = WindowOptimizer(settings_, pool_).optimize(window, 20);
+  const OptimizationReport report = WindowOptimizer(pool_).optimize(window, 20);
   EXPECT_TRUE(report.finite);
   EXPECT_LT(report.rmse, 1.0);
   EXPECT_GT(report.residuals, 1000);
@@ -119,7 +118,7 @@ TEST_F(WindowOptimizerTest, EnergyDecreasesWithEveryIteration) {
   double last = 0, first = 0;
   for (int iterations = 0; iterations <= 8; ++iterations) {
     Window window = disturbed_window();
-    const OptimizationReport report = WindowOptimizer(settings_, pool_).optimize(window, iterations);
+    const OptimizationReport report = WindowOptimizer(pool_).optimize(window, iterations);
     // The camera's prior takes part in what is minimized.
     if (iterations == 0) {
       first = last = report.energy;
@@ -136,7 +135,7 @@ TEST_F(WindowOptimizerTest, RecoversBrightness) {
   Window window = test::true_window(*scene_, {frames_[0], frames_[1], bright}, 15);
   window.camera_prior.setConstant(2e6);
   window.keyframes[0]->prior.tail<2>() << 1e12, 1e8;
-  WindowOptimizer(settings_, pool_).optimize(window, 20);
+  WindowOptimizer(pool_).optimize(window, 20);
   EXPECT_NEAR(window.keyframes[1]->state.brightness().a, 0, 0.003);
   EXPECT_NEAR(window.keyframes[1]->state.brightness().b, 0, 0.5);
   EXPECT_NEAR(window.keyframes[2]->state.brightness().a, std::log(1.1), 0.003);
@@ -154,7 +153,7 @@ TEST_F(WindowOptimizerTest, OutliersLeave) {
     }
   }
   ASSERT_GT(wrong, 50);
-  WindowOptimizer(settings_, pool_).optimize(window, 20);
+  WindowOptimizer(pool_).optimize(window, 20);
   expect_truth(window, *scene_);
   int kept = 0;
   for (auto& keyframe : window.keyframes) {
@@ -170,7 +169,7 @@ TEST_F(WindowOptimizerTest, OnlyFramesInThePriorKeepTheirLinearization) {
   Window window = disturbed_window(30);
   window.keyframes[1]->in_prior = true;
   const SE3d T_lin = window.keyframes[1]->state.T_c_w_lin;
-  WindowOptimizer(settings_, pool_).optimize(window, 6);
+  WindowOptimizer(pool_).optimize(window, 6);
   EXPECT_EQ(window.keyframes[1]->state.T_c_w_lin.matrix(), T_lin.matrix());
   EXPECT_GT(window.keyframes[1]->state.delta.norm(), 1e-4);
   EXPECT_EQ(window.keyframes[2]->state.delta.norm(), 0);
@@ -179,8 +178,8 @@ TEST_F(WindowOptimizerTest, OnlyFramesInThePriorKeepTheirLinearization) {
 TEST_F(WindowOptimizerTest, ThreadsDoNotChangeABit) {
   Window one = disturbed_window(30), other = disturbed_window(30);
   ThreadPool three(3);
-  WindowOptimizer(settings_, pool_).optimize(one, 6);
-  WindowOptimizer(settings_, three).optimize(other, 6);
+  WindowOptimizer(pool_).optimize(one, 6);
+  WindowOptimizer(three).optimize(other, 6);
   EXPECT_EQ(one.camera, other.camera);
   for (int i = 0; i < kFrames; ++i) {
     EXPECT_EQ(one.keyframes[i]->state.T_c_w().matrix(), other.keyframes[i]->state.T_c_w().matrix());

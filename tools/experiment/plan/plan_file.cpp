@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "experiment/jobs/job_file.h"
-#include "experiment/plan/plan_yaml.h"
 #include "io/text/nearest_name.h"
+#include "io/text/yaml_node.h"
 #include "ldso/error.h"
 #include "ldso/io/settings_file.h"
 #include "util/whole_file.h"
@@ -32,7 +32,7 @@ Names with(Names names, const Names& more) {
 }
 
 /// Names become folders of the experiment.
-std::string name_of(const PlanNode& value) {
+std::string name_of(const YamlNode& value) {
   std::string name = value.text();
   const bool good = name.front() != '.' && std::all_of(name.begin(), name.end(), [](char c) {
                       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
@@ -65,10 +65,10 @@ class PlanReader {
 
   ExperimentPlan read(const std::string& text, const std::string& origin) {
     plan_.origin = origin;
-    const PlanNode root = PlanNode::parse(text, origin);
-    std::optional<PlanNode> datasets;
+    const YamlNode root = YamlNode::parse(text, origin, "the plan");
+    std::optional<YamlNode> datasets;
     for (const auto& [key, value] : root.entries()) {
-      check_key(value, key, kPlanKeys);
+      value.check_key(key, kPlanKeys);
       if (key == "datasets") {
         datasets = value;
       } else {
@@ -83,7 +83,7 @@ class PlanReader {
   }
 
  private:
-  void read_plan_key(const std::string& key, const PlanNode& value) {
+  void read_plan_key(const std::string& key, const YamlNode& value) {
     if (key == "title") plan_.title = value.text();
     if (key == "root") root_ = value.text();
     if (key == "repetitions") plan_.repetitions = value.whole_number(1);
@@ -98,9 +98,9 @@ class PlanReader {
     if (key == "variants") variants_ = value;
   }
 
-  void read_directions(const PlanNode& value) {
+  void read_directions(const YamlNode& value) {
     plan_.directions.clear();
-    for (const PlanNode& element : value.elements()) {
+    for (const YamlNode& element : value.elements()) {
       const bool reverse = element.one_of(kDirections) == 1;
       if (std::find(plan_.directions.begin(), plan_.directions.end(), reverse) != plan_.directions.end())
         element.fail("names a direction twice", "remove one");
@@ -110,16 +110,16 @@ class PlanReader {
 
   // Variants: listed one by one, or all strategies with all that `loops` says.
 
-  void make_variants(const PlanNode& root) {
+  void make_variants(const YamlNode& root) {
     if (variants_) {
       for (const auto& other : {strategies_, loops_}) {
         if (other) other->fail("stands beside 'variants'", "a variant says its own strategy and loops; remove it");
       }
-      for (const PlanNode& element : variants_->elements()) add_variant(read_variant(element), element);
+      for (const YamlNode& element : variants_->elements()) add_variant(read_variant(element), element);
       return;
     }
-    const std::vector<PlanNode> loops = loops_ ? loops_->elements() : std::vector<PlanNode>{};
-    const std::vector<PlanNode> strategies = strategies_ ? strategies_->elements() : std::vector<PlanNode>{};
+    const std::vector<YamlNode> loops = loops_ ? loops_->elements() : std::vector<YamlNode>{};
+    const std::vector<YamlNode> strategies = strategies_ ? strategies_->elements() : std::vector<YamlNode>{};
     const std::size_t rows = std::max<std::size_t>(strategies.size(), 1);
     const std::size_t columns = std::max<std::size_t>(loops.size(), 1);
     for (std::size_t i = 0; i < rows * columns; ++i) {
@@ -135,11 +135,11 @@ class PlanReader {
     return variant.strategy + (variant.loops ? "" : "_no_loops");
   }
 
-  PlanVariant read_variant(const PlanNode& node) {
+  PlanVariant read_variant(const YamlNode& node) {
     static const Names kKeys{"name", "strategy", "loops", "settings"};
     PlanVariant variant;
     for (const auto& [key, value] : node.entries()) {
-      check_key(value, key, kKeys);
+      value.check_key(key, kKeys);
       if (key == "name") variant.name = name_of(value);
       if (key == "strategy") variant.strategy = kStrategies[value.one_of(kStrategies)];
       if (key == "loops") variant.loops = value.yes_or_no();
@@ -149,7 +149,7 @@ class PlanReader {
     return variant;
   }
 
-  void add_variant(PlanVariant variant, const PlanNode& node) {
+  void add_variant(PlanVariant variant, const YamlNode& node) {
     for (const PlanVariant& other : plan_.variants) {
       if (other.name == variant.name)
         node.fail("makes the variant '" + variant.name + "' twice", "remove one or give it another name");
@@ -159,7 +159,7 @@ class PlanReader {
 
   // Datasets and their sequences.
 
-  void read_datasets(const PlanNode& datasets) {
+  void read_datasets(const YamlNode& datasets) {
     const auto entries = datasets.entries();
     if (entries.empty()) datasets.fail("is empty", "name at least one dataset");
     check_roots(entries);
@@ -167,7 +167,7 @@ class PlanReader {
     if (plan_.sequences.empty()) datasets.fail("has no sequences", "list some below `sequences:`");
   }
 
-  void check_roots(const std::vector<std::pair<std::string, PlanNode>>& datasets) const {
+  void check_roots(const std::vector<std::pair<std::string, YamlNode>>& datasets) const {
     Names names;
     for (const auto& [name, node] : datasets) names.push_back(name);
     if (roots_.only && datasets.size() > 1) {
@@ -182,13 +182,13 @@ class PlanReader {
     }
   }
 
-  void read_dataset(const std::string& name, const PlanNode& node, bool only) {
+  void read_dataset(const std::string& name, const YamlNode& node, bool only) {
     static const Names kKeys = with({"root", "download", "sequences"}, kSequenceKeys);
     SequenceKeys keys = common_;
-    std::optional<PlanNode> root, sequences;
+    std::optional<YamlNode> root, sequences;
     std::string download;
     for (const auto& [key, value] : node.entries()) {
-      check_key(value, key, kKeys);
+      value.check_key(key, kKeys);
       if (key == "root") root = value;
       if (key == "sequences") sequences = value;
       if (key == "download") download = value.text();
@@ -196,7 +196,7 @@ class PlanReader {
     }
     if (!sequences) node.fail("has no sequences", "give `sequences: [NAME, ..]`");
     const fs::path folder = root_of(name, root, only);
-    for (const PlanNode& element : sequences->elements()) {
+    for (const YamlNode& element : sequences->elements()) {
       plan_.sequences.push_back(read_sequence(element, keys, folder));
       plan_.sequences.back().dataset = name;
       plan_.sequences.back().download = download;
@@ -204,7 +204,7 @@ class PlanReader {
   }
 
   /// Empty if nothing says it: that is one of the things that are missing on this machine, not a mistake of the plan.
-  fs::path root_of(const std::string& name, const std::optional<PlanNode>& root, bool only) const {
+  fs::path root_of(const std::string& name, const std::optional<YamlNode>& root, bool only) const {
     const auto given = roots_.by_dataset.find(name);
     if (given != roots_.by_dataset.end()) return absolute(fs::current_path(), given->second);
     if (only && roots_.only) return absolute(fs::current_path(), *roots_.only);
@@ -213,7 +213,7 @@ class PlanReader {
     return {};
   }
 
-  void read_sequence_key(const std::string& key, const PlanNode& value, SequenceKeys& keys) {
+  void read_sequence_key(const std::string& key, const YamlNode& value, SequenceKeys& keys) {
     if (key == "path") keys.path = value.text();
     if (key == "start") keys.playback.start = value.whole_number(0);
     if (key == "end") keys.playback.end = end_of(value);
@@ -226,22 +226,22 @@ class PlanReader {
     if (key == "config") keys.config = file_of(value);
     if (key == "needs") {
       keys.needs.clear();
-      for (const PlanNode& element : value.elements()) keys.needs.push_back(element.text());
+      for (const YamlNode& element : value.elements()) keys.needs.push_back(element.text());
     }
   }
 
-  static int end_of(const PlanNode& value) {
+  static int end_of(const YamlNode& value) {
     const int end = value.whole_number(-1000000000);
     if (end == 0) value.fail("leaves no frame", "count from 1, or below 0 from the sequence's end");
     return end;
   }
 
-  PlanSequence read_sequence(const PlanNode& node, SequenceKeys keys, const fs::path& root) {
+  PlanSequence read_sequence(const YamlNode& node, SequenceKeys keys, const fs::path& root) {
     static const Names kKeys = with({"name"}, kSequenceKeys);
     PlanSequence sequence;
     if (node.is_map()) {
       for (const auto& [key, value] : node.entries()) {
-        check_key(value, key, kKeys);
+        value.check_key(key, kKeys);
         if (key == "name") sequence.name = name_of(value);
         read_sequence_key(key, value, keys);
       }
@@ -268,7 +268,7 @@ class PlanReader {
   // Settings.
 
   /// Nested or dotted; each checked by itself.
-  void read_settings_of(const PlanNode& node, const std::string& prefix, std::vector<std::string>& settings) {
+  void read_settings_of(const YamlNode& node, const std::string& prefix, std::vector<std::string>& settings) {
     for (const auto& [key, value] : node.entries()) {
       if (value.is_map()) {
         read_settings_of(value, prefix + key + ".", settings);
@@ -279,7 +279,7 @@ class PlanReader {
     }
   }
 
-  static void check_setting(const std::string& key, const PlanNode& value) {
+  static void check_setting(const std::string& key, const YamlNode& value) {
     static const std::vector<std::pair<std::string, std::string>> kOwn{
         {"selection.strategy", "strategies"}, {"loops.enabled", "loops"}, {"threads", "threads"}};
     for (const auto& [setting, plan_key] : kOwn) {
@@ -315,7 +315,7 @@ class PlanReader {
     }
   }
 
-  fs::path file_of(const PlanNode& value) const {
+  fs::path file_of(const YamlNode& value) const {
     fs::path file = absolute(folder_, value.text());
     std::error_code error;
     if (!fs::is_regular_file(file, error))
@@ -333,7 +333,7 @@ class PlanReader {
   ExperimentPlan plan_;
   SequenceKeys common_;
   std::optional<std::string> root_;
-  std::optional<PlanNode> strategies_, loops_, variants_;
+  std::optional<YamlNode> strategies_, loops_, variants_;
 };
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST(PlanFile, MistakesAreNamedWithTheirLine) {
       {"loops: on\nvariants: [{strategy: random}]\n", "plan.yaml:2: 'loops' stands beside 'variants'", "remove it"},
       {"directions: sideways\n", "plan.yaml:2: 'directions' is 'sideways'", "forward or backward"},
       {"vary: weather\n", "plan.yaml:2: 'vary' is 'weather'", "start, seed or none"},
-      {"settings: {windw.iterations: 3}\n", "plan.yaml:2", "did you mean 'window'?"},
+      {"settings: {windw.iterations: 3}\n", "plan.yaml:2", "did you mean 'window.iterations'?"},
       {"settings:\n  window:\n    iterations: few\n", "plan.yaml:4", "a whole number"},
       {"settings: {loops.enabled: off}\n", "plan.yaml:2: 'loops.enabled' is no setting", "the plan's key 'loops'"},
       {"settings: {window.iterations: -3}\n", "plan.yaml: a, corners: ", "window.iterations"},

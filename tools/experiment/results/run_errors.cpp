@@ -1,6 +1,5 @@
 #include "experiment/results/run_errors.h"
 
-#include <bit>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "experiment/jobs/job_file.h"
 #include "ldso/error.h"
 #include "ldso/io/dataset.h"
+#include "util/hash.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -21,21 +21,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kVersion = 1;  ///< To be raised when a metric changes: what is kept is then measured again.
 constexpr const char* kFileName = "errors.json";
 
-/// FNV-1a over the bits of the numbers.
-class Fingerprint {
- public:
-  void add(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int shift = 0; shift < 64; shift += 8) hash_ = (hash_ ^ ((bits >> shift) & 0xff)) * 0x100000001b3ull;
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ull;
-};
-
 std::uint64_t fingerprint(const Trajectory& trajectory) {
-  Fingerprint result;
+  Checksum result;
   for (const StampedPose& pose : trajectory) {
     result.add(pose.timestamp);
     for (const double v : pose.T_world_camera.translation()) result.add(v);

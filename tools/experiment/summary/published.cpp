@@ -1,13 +1,11 @@
 #include "experiment/summary/published.h"
 
-#include <yaml-cpp/yaml.h>
-
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <string_view>
 
+#include "io/text/yaml_node.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
 
@@ -18,47 +16,35 @@ extern const char kPublishedText[];
 
 namespace {
 
-[[noreturn]] void fail(const std::string& where, const YAML::Mark& mark, const std::string& problem) {
-  std::string place = where;
-  if (!mark.is_null()) place.append(":").append(std::to_string(mark.line + 1));
-  throw Error(place, problem, "see experiments/published.yaml for the form");
-}
+constexpr const char* kForm = "see experiments/published.yaml for the form";
 
-PublishedResults results_of(const std::string& where, const YAML::Node& node) {
-  static const std::set<std::string> kRequired = {"system", "source", "dataset", "figure", "unit", "values"};
-  if (!node.IsMap()) fail(where, node.Mark(), "a system with its values is expected");
-  for (const auto& member : node) {
-    const std::string name = member.first.as<std::string>();
-    if (!kRequired.contains(name) && name != "frames") fail(where, member.first.Mark(), "unknown member " + name);
+PublishedResults results_of(const YamlNode& node) {
+  static const std::vector<std::string> kRequired = {"system", "source", "dataset", "figure", "unit", "values"};
+  if (!node.is_map()) node.fail("is no system with its values", kForm);
+  for (const auto& [key, value] : node.entries()) {
+    const bool known = key == "frames" || std::find(kRequired.begin(), kRequired.end(), key) != kRequired.end();
+    if (!known) throw Error(value.where(), "unknown member " + key, kForm);
   }
-  for (const std::string& name : kRequired) {
-    if (!node[name]) fail(where, node.Mark(), "the member " + name + " is missing");
+  for (const std::string& key : kRequired) {
+    if (!node.contains(key)) throw Error(node.where(), "the member " + key + " is missing", kForm);
   }
   PublishedResults results;
-  results.system = node["system"].as<std::string>();
-  results.source = node["source"].as<std::string>();
-  results.dataset = node["dataset"].as<std::string>();
-  results.figure = node["figure"].as<std::string>();
-  results.unit = node["unit"].as<std::string>();
-  for (const auto& value : node["values"]) {
-    const auto key = value.first.as<std::string>();
-    if (value.second.IsScalar() && value.second.as<std::string>() == "failed") {
-      results.values[key] = std::nullopt;
-    } else {
-      results.values[key] = value.second.as<double>();
-    }
+  results.system = node.at("system").scalar();
+  results.source = node.at("source").scalar();
+  results.dataset = node.at("dataset").scalar();
+  results.figure = node.at("figure").scalar();
+  results.unit = node.at("unit").scalar();
+  for (const auto& [key, value] : node.at("values").entries()) {
+    results.values[key] = value.scalar() == "failed" ? std::nullopt : std::optional(value.number());
   }
-  for (const auto& frames : node["frames"]) results.frames[frames.first.as<std::string>()] = frames.second.as<double>();
+  if (!node.contains("frames")) return results;
+  for (const auto& [key, value] : node.at("frames").entries()) results.frames[key] = value.number();
   return results;
 }
 
 std::vector<PublishedResults> parse(const std::string& where, const std::string& text) {
   std::vector<PublishedResults> all;
-  try {
-    for (const YAML::Node& node : YAML::Load(text)) all.push_back(results_of(where, node));
-  } catch (const YAML::Exception& error) {
-    fail(where, error.mark, error.msg);
-  }
+  for (const YamlNode& node : YamlNode::parse(text, where, "a system").elements()) all.push_back(results_of(node));
   return all;
 }
 

@@ -24,7 +24,7 @@ std::vector<Gradient> make_gradients(std::uint64_t seed, int cells) {
   std::vector<Gradient> gradients;
   for (int iy = 0; iy < cells; ++iy) {
     for (int ix = 0; ix < cells; ++ix) {
-      const double angle = static_cast<double>(hash_of(seed, ix, iy) >> 11) * 0x1.0p-53 * 2 * std::numbers::pi;
+      const double angle = unit_interval(hash_of(seed, ix, iy)) * 2 * std::numbers::pi;
       gradients.push_back({std::cos(angle), std::sin(angle)});
     }
   }
@@ -132,7 +132,7 @@ double SmoothNoise::at(double t) const {
 
 float gaussian_of(std::uint64_t key) {
   static const std::vector<float> kQuantiles = make_quantiles();
-  return kQuantiles[mix_bits(key) & 0xffff];
+  return kQuantiles[hash_of(key) & 0xffff];
 }
 
 }  // namespace ldso::simulation

@@ -6,28 +6,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "util/hash.h"
+
 namespace ldso::simulation {
-
-/// Mixes the bits of a 64-bit key (the finalizer of SplitMix64, Steele et al. 2014).
-inline std::uint64_t mix_bits(std::uint64_t key) {
-  key += 0x9e3779b97f4a7c15ULL;
-  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  key = (key ^ (key >> 27)) * 0x94d049bb133111ebULL;
-  return key ^ (key >> 31);
-}
-
-inline std::uint64_t hash_of(std::uint64_t a, std::uint64_t b) { return mix_bits(mix_bits(a) ^ b); }
-inline std::uint64_t hash_of(std::uint64_t a, std::uint64_t b, std::uint64_t c) { return hash_of(hash_of(a, b), c); }
 
 /// A seeded stream of random numbers with a fixed definition (the standard distributions have none).
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(mix_bits(seed)) {}
+  explicit Random(std::uint64_t seed) : state_(hash_of(seed)) {}
   Random(std::uint64_t seed, std::uint64_t stream) : state_(hash_of(seed, stream)) {}
 
-  std::uint64_t bits() { return mix_bits(state_++); }
+  std::uint64_t bits() { return hash_of(state_++); }
   /// Uniform in [0, 1).
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+  double uniform() { return unit_interval(bits()); }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Uniform in [0, count).
   int index(int count) { return static_cast<int>(uniform() * count); }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "simulation/rendering/scene.h"
+#include "util/hash.h"
 
 namespace ldso::simulation {
 namespace {
@@ -13,9 +14,7 @@ double smooth_step(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-float tone(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
-  return static_cast<float>(hash_of(seed, a, b) >> 40) * 0x1.0p-24f;
-}
+float tone(std::uint64_t seed, std::uint64_t a, std::uint64_t b) { return unit_interval_float(hash_of(seed, a, b)); }
 
 /// 1 inside of a cell, falling to 0 at its joint.
 double joint_profile(double distance, double half_joint, double softness) {

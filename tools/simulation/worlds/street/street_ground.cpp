@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulation/worlds/canvas.h"
+#include "util/hash.h"
 
 namespace ldso::simulation {
 namespace {
@@ -23,8 +24,7 @@ double smooth_step(double low, double high, double x) {
 }
 
 double hashed(std::uint64_t seed, std::int64_t a, std::int64_t b) {
-  return static_cast<double>(hash_of(seed, static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b)) >> 11) *
-         0x1.0p-53;
+  return unit_interval(hash_of(seed, static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b)));
 }
 
 /// Albedo of the ground as a function of the place.

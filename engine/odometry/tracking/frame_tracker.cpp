@@ -1,0 +1,127 @@
+#include "odometry/tracking/frame_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "odometry/tracking/frame_record.h"
+#include "odometry/tracking/motion_hypotheses.h"
+
+namespace ldso {
+namespace {
+
+/// No image is read for longer than until the next; timestamps may waver.
+constexpr double kLargestReadoutShare = 2;
+
+/// Zero if the times say nothing.
+SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
+  const SE3d::Tangent velocity = motion.log() / seconds;
+  return velocity.allFinite() ? velocity : SE3d::Tangent(SE3d::Tangent::Zero());
+}
+
+}  // namespace
+
+void FrameTracker::start(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_frame_first, double seconds) {
+  velocity_ = velocity_of(T_frame_first, seconds);
+  last_frame_ = frame;
+  last_time_ = frame->timestamp;
+  last_rmse_.clear();
+}
+
+void FrameTracker::set_reference(const Window& window) {
+  aligner_.set_reference(window);
+  T_last_ref_ = SE3d();
+  last_brightness_ = window.keyframes.back()->state.brightness();
+  first_rmse_ = 0;
+}
+
+void FrameTracker::assume_even_motion(const Window& window) {
+  const Keyframe &first = *window.keyframes.front(), &newest = *window.keyframes.back();
+  const auto frames = static_cast<double>(std::max<std::int64_t>(1, newest.id() - first.id()));
+  T_last_previous_ = SE3d::exp((newest.state.T_c_w() * first.state.T_c_w().inverse()).log() / frames);
+  last_step_s_ = (newest.frame->timestamp - first.frame->timestamp) / frames;
+}
+
+TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest) {
+  TrackedFrame tracked;
+  tracked.alignment = align(*frame);
+  if (!tracked.alignment.good && !last_rmse_.empty()) {
+    // The image may have got worse all of a sudden (blur): compare hypotheses with each other only.
+    last_rmse_.clear();
+    tracked.alignment = align(*frame);
+  }
+  if (!tracked.alignment.good) {
+    tracked.reason = "no motion explains the image";
+  } else if (tracked.alignment.in_view < settings_.least_in_view) {
+    tracked.reason = "the image shows too little of the map";
+  }
+  if (!tracked.reason.empty()) return tracked;
+  remember(frame, tracked.alignment, newest);
+  tracked.motion = aligner_.motion(*frame, tracked.alignment);
+  tracked.motion.first_rmse = first_rmse_;
+  return tracked;
+}
+
+void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result,
+                            Keyframe& newest) {
+  last_rmse_ = result.level_rmse;
+  if (first_rmse_ <= 0) first_rmse_ = result.rmse();
+  T_last_previous_ = result.T_new_ref * T_last_ref_.inverse();
+  T_last_ref_ = result.T_new_ref;
+  last_step_s_ = frame->timestamp - last_time_;
+  velocity_ = velocity_of(T_last_previous_, last_step_s_);
+  // What is known before and after the time of a keyframe tells its velocity better than one of both.
+  if (newest.frame == last_frame_) newest.velocity = 0.5 * (newest.velocity + velocity_);
+  last_frame_ = frame;
+  last_time_ = frame->timestamp;
+  last_brightness_ = result.brightness;
+}
+
+void FrameTracker::lose() {
+  T_last_previous_ = SE3d();
+  last_rmse_.clear();
+}
+
+void FrameTracker::record_last(const Keyframe& newest, FrameRecord& record) const {
+  record_pose(newest, T_last_ref_, last_rmse_.empty() ? 0 : last_rmse_.front(), last_brightness_, record);
+}
+
+SE3d FrameTracker::expected_motion(double time) const {
+  return motion_over(T_last_previous_, step_ratio(time - last_time_, last_step_s_));
+}
+
+AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
+  const PreviousFrame previous = previous_frame(frame.timestamp, last_time_, T_last_ref_);
+  AlignmentResult best;
+  for (const SE3d& pose : motion_hypotheses(T_last_ref_, expected_motion(frame.timestamp))) {
+    // Only what beats the best so far is of interest.
+    const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
+    const AlignmentResult result = aligner_.align(frame, pose, last_brightness_, priors_.of(frame), limits, previous);
+    if (!result.good || !std::isfinite(result.rmse()) || result.rmse() > settings_.lost_rmse) continue;
+    if (!best.good || result.rmse() < best.rmse()) best = result;
+    const bool as_good_as_ever = last_rmse_.empty() || best.rmse() < settings_.good_ratio * last_rmse_.front();
+    if (as_good_as_ever) break;
+  }
+  return best;
+}
+
+AlignmentResult FrameTracker::align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                                         const Brightness& brightness, const PreviousFrame& previous) const {
+  AlignmentResult best;
+  for (const SE3d& start : starts) {
+    const AlignmentResult result = aligner_.align(frame, start, brightness, priors_.of(frame), {}, previous);
+    if (!result.good || !(result.rmse() <= settings_.lost_rmse)) continue;
+    if (!best.good || result.rmse() < best.rmse()) best = result;
+  }
+  return best;
+}
+
+PreviousFrame FrameTracker::previous_frame(double time, double previous_time, const SE3d& T_previous_ref) const {
+  const double share = readout_s_ / (time - previous_time);
+  return {T_previous_ref, std::abs(share) < kLargestReadoutShare ? share : 0};
+}
+
+double FrameTracker::mean_idepth() const {
+  return aligner_.depth_map().levels.empty() ? 0 : aligner_.depth_map().mean_idepth;
+}
+
+}  // namespace ldso
