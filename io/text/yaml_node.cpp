@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "io/text/nearest_name.h"
-#include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {

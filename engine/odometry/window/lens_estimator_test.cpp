@@ -39,7 +39,7 @@ class LensEstimatorTest : public testing::Test {
     window.camera_lin = window.camera;
     window.camera_prior.setConstant(1e12);
     ThreadPool pool{1};
-    WindowOptimizer(WindowSettings{}, pool).optimize(window, 20);
+    WindowOptimizer(pool).optimize(window, 20);
     EXPECT_TRUE(estimator.add(window));
     return estimator.estimate();
   }
@@ -84,7 +84,7 @@ TEST_F(LensEstimatorTest, FindsTheReadoutOfARollingShutter) {
   window.readout_s = 0;  // As if nobody knew.
   window.camera_prior.setConstant(1e12);
   ThreadPool pool{1};
-  WindowOptimizer(WindowSettings{}, pool).optimize(window, 20);
+  WindowOptimizer(pool).optimize(window, 20);
   ASSERT_TRUE(estimator_.add(window));
   const LensEstimate result = estimator_.estimate();
   expect_change(result, {0, 0, 0, kReadout}, 0.3);

@@ -104,7 +104,7 @@ TEST_F(WindowOptimizerTest, ARollingShutterThatIsKnownDoesNoHarm) {
     window.camera_prior.setConstant(2e6);
     test::disturb(window, 0.01, 0.004, 0, 0, 0.04, 9);
     ThreadPool pool{1};
-    EXPECT_TRUE(WindowOptimizer(WindowSettings{}, pool).optimize(window, 30).finite);
+    EXPECT_TRUE(WindowOptimizer(pool).optimize(window, 30).finite);
     return errors_of(window, *scene_);
   };
   const Errors known = errors_with(kReadout), ignored = errors_with(0);
