@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "io/text/nearest_name.h"
+#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
 
