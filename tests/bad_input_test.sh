@@ -148,7 +148,7 @@ PY
   unwritable_output)  # is found out before the run
     echo "a file" >"$WORK/file"
     expect_exit 1 run "$damaged" -o "$WORK/file/out"
-    expect_output '^error: .*output folder'
+    expect_output '^error: .*the folder cannot be created'
     if grep -q 'frames/s' "$WORK/log"; then fail "the run was started"; fi
     ;;
   range_outside)

@@ -17,7 +17,10 @@ fail() {
 }
 
 # configure SOURCE BUILD OPTIONS...
-configure() { cmake -G "$generator" -S "$1" -B "$2" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" "${@:3}"; }
+configure() {
+  cmake --no-warn-unused-cli -G "$generator" -S "$1" -B "$2" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$compiler" "${@:3}"
+}
 
 # A machine without what only files and the program need: pkg-config and find_package do not find it.
 cat >"$work/pkg-config" <<'SCRIPT'
@@ -32,9 +35,12 @@ for package in yaml-cpp nlohmann_json Boost CLI11 GTest benchmark; do
 done
 # What the engine must not be linked with, even by way of others.
 foreign='opencv_(imgcodecs|videoio|highgui)|yaml|libzip|boost|libav'
-# What it is linked with: the standard library, Ceres with its log, Highway, and the parts of OpenCV (features2d brings
-# flann).
-known='^(lib(stdc\+\+|m|gcc_s|c|pthread|ceres|glog|gflags|hwy|opencv_(core|imgproc|features2d|flann)|[aut]san|ubsan)\.so.*|ld-linux.*)$'
+# What it is linked with: the standard library, Highway, the parts of OpenCV (features2d brings flann), and Ceres with
+# what that brings (its log, sparse and dense linear algebra).
+standard='stdc\+\+|m|gcc_s|c|pthread|[aut]san|ubsan'
+ceres='ceres|glog|gflags|cholmod|cxsparse|spqr|suitesparseconfig|c?c?amd|c?colamd|metis'
+ceres+='|lapack|(f77)?blas|openblas|atlas|gomp|tbb'
+known="^(lib($standard|hwy|opencv_(core|imgproc|features2d|flann)|$ceres)\.so.*|ld-linux.*)$"
 
 # The engine.
 cmake --install "$build" --prefix "$work/engine" --component engine >"$work/install.log"
@@ -42,7 +48,8 @@ cmake --install "$build" --prefix "$work/engine" --component engine >"$work/inst
   fail "the engine brings more than itself"
 configure "$here/consumer" "$work/engine_build" -DCMAKE_PREFIX_PATH="$work/engine" "${without[@]}" "${options[@]}"
 cmake --build "$work/engine_build" --verbose | tee "$work/engine_build.log"
-if grep -E -- '-o consumer( |$)' "$work/engine_build.log" | grep -E "$foreign"; then fail "these are linked"; fi
+grep -E -- '-o consumer( |$)' "$work/engine_build.log" >"$work/link_line" || fail "there is no link line"
+if grep -E "$foreign" "$work/link_line"; then fail "these are linked"; fi
 readelf -d "$work/engine_build/consumer" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' >"$work/needed"
 if grep -Ev "$known" "$work/needed"; then fail "these libraries are linked with the engine"; fi
 if ldd "$work/engine_build/consumer" | grep -E "$foreign"; then fail "these libraries are loaded with the engine"; fi
@@ -62,7 +69,9 @@ cmake --build "$work/io_build"
 # All of it. Only public headers are there, and they include nothing else of the project.
 cmake --install "$build" --prefix "$work/all" >>"$work/install.log"
 "$work/all/bin/ldso" --version
-if grep -rhoE '#include "[^"]+"' "$work/all/include" | grep -v '"ldso/'; then fail "public headers include private ones"; fi
+if grep -rhoE '#include "[^"]+"' "$work/all/include" | grep -v '"ldso/'; then
+  fail "public headers include private ones"
+fi
 
 # The engine is configured on a machine that has no more than it needs.
 configure "$here/.." "$work/engine_only" -DLDSO_BUILD_APP=OFF -DLDSO_BUILD_IO=OFF -DLDSO_BUILD_TESTS=OFF "${without[@]}" \

@@ -88,11 +88,6 @@ std::optional<Eigen::Vector3d> CameraModel::unproject(const Eigen::Vector2d& pix
   return undistort(Eigen::Vector2d((pixel.x() - c.cx) / c.fx, (pixel.y() - c.cy) / c.fy));
 }
 
-bool CameraModel::in_domain(const Eigen::Vector3d& p) const {
-  Eigen::Vector2d m;
-  return distort(p, m, nullptr, nullptr) && m.allFinite();
-}
-
 std::unique_ptr<CameraModel> make_camera_model(const CameraCalibration& calibration) {
   validate(calibration);
   switch (calibration.model) {

@@ -32,9 +32,6 @@ class CameraModel {
   /// The pixel need not be inside of the image.
   std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& pixel) const;
 
-  /// Whether `project` has an answer.
-  bool in_domain(const Eigen::Vector3d& p) const;
-
   /// Four and the number of distortion parameters.
   int parameter_count() const { return 4 + distortion_count(); }
 

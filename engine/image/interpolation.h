@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <optional>
 
 #include "image/frame.h"
 #include "ldso/image.h"
@@ -86,19 +84,6 @@ inline Texel quadratic(const ImageView<const Texel>& image, float x, float y) {
   result.intensity -= 0.5f * fx * (1 - fx) * mix(p[1].dx - p[0].dx, q[1].dx - q[0].dx, fy);
   result.intensity -= 0.5f * fy * (1 - fy) * mix(q[0].dy - p[0].dy, q[1].dy - p[1].dy, fx);
   return result;
-}
-
-/// Safe anywhere: nothing outside of the pixel centres; the last column and row are inside.
-/// Images smaller than 2 x 2 have no inside.
-template <class T>
-std::optional<T> bilinear_if_inside(const ImageView<const T>& image, float x, float y) {
-  if (image.width < 2 || image.height < 2) return std::nullopt;
-  const bool inside =
-      x >= 0 && y >= 0 && x <= static_cast<float>(image.width - 1) && y <= static_cast<float>(image.height - 1);
-  if (!inside) return std::nullopt;
-  const int left = std::min(static_cast<int>(x), image.width - 2);
-  const int top = std::min(static_cast<int>(y), image.height - 2);
-  return detail::bilinear(image, left, top, x, y);
 }
 
 }  // namespace ldso

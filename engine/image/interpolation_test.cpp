@@ -94,22 +94,6 @@ TEST(Interpolation, KnowsItsBounds) {
   EXPECT_FALSE(is_interpolable(view, 6.0f, 2.0f, 2.0f));
 }
 
-TEST(Interpolation, SafeVersionIncludesTheLastPixelAndNothingBeyond) {
-  const Image<float> image = bilinear_image(9, 7);
-  const auto view = image.view();
-  const auto corner = bilinear_if_inside(view, 8.0f, 6.0f);
-  ASSERT_TRUE(corner.has_value());
-  EXPECT_FLOAT_EQ(*corner, value_at(8, 6));
-  EXPECT_FLOAT_EQ(bilinear_if_inside(view, 0.0f, 0.0f).value(), value_at(0, 0));
-  EXPECT_FALSE(bilinear_if_inside(view, 8.001f, 3.0f));
-  EXPECT_FALSE(bilinear_if_inside(view, -0.001f, 3.0f));
-  EXPECT_FALSE(bilinear_if_inside(view, 3.0f, 1e30f));
-  EXPECT_FALSE(bilinear_if_inside(view, std::numeric_limits<float>::quiet_NaN(), 3.0f));
-  const Image<float> single(1, 1);
-  EXPECT_FALSE(bilinear_if_inside(single.view(), 0.0f, 0.0f));
-  EXPECT_FALSE(bilinear_if_inside(ImageView<const float>{}, 0.0f, 0.0f));
-}
-
 TEST(ImageView, MayLoseButNotGainTheRightToWrite) {
   static_assert(std::is_convertible_v<ImageView<float>, ImageView<const float>>);
   static_assert(!std::is_convertible_v<ImageView<const float>, ImageView<float>>);

@@ -20,7 +20,6 @@ class PhotometricCorrection {
 
   /// Whether a response is known and undone: intensities are then proportional to irradiance.
   bool has_response() const { return inverse_response_.has_value(); }
-  bool has_vignette() const { return !gain_.empty(); }
 
   /// Raw grey levels 0..255 to masked irradiance (masked_image.h): marked where overexposed or where the vignette is
   /// black. Both views have the size given on construction.

@@ -100,8 +100,7 @@ TEST(PhotometricCorrection, SettingsSwitchItOff) {
   EXPECT_FLOAT_EQ(apply(calibration, no_response, grey)(0, 0), 100.0f / v);
   EXPECT_FLOAT_EQ(apply(calibration, no_vignette, grey)(0, 0), (*calibration.inverse_response)[100]);
   EXPECT_FALSE(PhotometricCorrection(calibration, no_response, kWidth, kHeight).has_response());
-  EXPECT_TRUE(PhotometricCorrection(calibration, no_response, kWidth, kHeight).has_vignette());
-  EXPECT_FALSE(PhotometricCorrection(calibration, no_vignette, kWidth, kHeight).has_vignette());
+  EXPECT_TRUE(PhotometricCorrection(calibration, no_vignette, kWidth, kHeight).has_response());
 }
 
 TEST(PhotometricCorrection, MarksOverexposedPixelsAndThoseBehindABlackVignette) {

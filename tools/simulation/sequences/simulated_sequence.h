@@ -38,8 +38,6 @@ class SimulatedSequence {
 
   int size() const { return static_cast<int>(times_.size()); }
   const Calibration& calibration() const { return calibration_; }
-  /// The sensor's true response and vignette, also if they are withheld from calibration().
-  PhotometricCalibration true_photometry() const { return sensor_.calibration(); }
   const std::string& name() const { return world_.name; }
   const SequenceOptions& options() const { return options_; }
 

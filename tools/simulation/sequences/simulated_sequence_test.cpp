@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ldso/error.h"
@@ -243,7 +244,10 @@ TEST(SimulatedSequence, WithholdsWhatIsToBeWithheld) {
   EXPECT_FALSE(sequence.calibration().photometric.inverse_response.has_value());
   EXPECT_TRUE(sequence.calibration().photometric.vignette.empty());
   EXPECT_FALSE(sequence.render(2).exposure_ms.has_value());
-  EXPECT_TRUE(sequence.true_photometry().inverse_response.has_value());
+  // The camera has a response all the same: its images are others than those of a linear one.
+  recipe.sensor.response = false;
+  const Image<float> image = sequence.render(2).grey, linear = make_sequence(recipe, &pool()).render(2).grey;
+  EXPECT_FALSE(std::equal(image.data(), image.data() + image.size(), linear.data()));
 }
 
 TEST(SequenceRecipe, RefusesNonsense) {
