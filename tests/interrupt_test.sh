@@ -11,7 +11,7 @@ repeat_sequence "$SEQUENCE" "$long" 200
 total=$(find "$long/images" -name '*.*' | wc -l)
 
 # Of an earlier run: gone as soon as this one has begun, since run.json says that the folder is complete.
-mkdir -p "$out" && echo '{"interrupted": false}' >"$out/run.json"
+mkdir -p "$out" && echo '{"interrupted": false, "versions": {"ldso": "0.1.0"}}' >"$out/run.json"
 
 # Job control, so that SIGINT is not ignored in the background.
 set -m

@@ -66,6 +66,7 @@ class PlanReader {
   ExperimentPlan read(const std::string& text, const std::string& origin) {
     plan_.origin = origin;
     const YamlNode root = YamlNode::parse(text, origin, "the plan");
+    if (!root.is_map()) root.fail("has no lines `key: value`", "see docs/experiments.md for the keys");
     std::optional<YamlNode> datasets;
     for (const auto& [key, value] : root.entries()) {
       value.check_key(key, kPlanKeys);

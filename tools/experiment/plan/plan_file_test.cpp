@@ -158,7 +158,7 @@ TEST(PlanFile, MistakesAreNamedWithTheirLine) {
       {"settings: {windw.iterations: 3}\n", "plan.yaml:2", "did you mean 'window.iterations'?"},
       {"settings:\n  window:\n    iterations: few\n", "plan.yaml:4", "a whole number"},
       {"settings: {loops.enabled: off}\n", "plan.yaml:2: 'loops.enabled' is no setting", "the plan's key 'loops'"},
-      {"settings: {window.iterations: -3}\n", "plan.yaml: a, corners: ", "window.iterations"},
+      {"settings: {window.iterations: -3}\n", "plan.yaml:2: setting window.iterations", "1 to 100"},
       {"config: nowhere.yaml\n", "plan.yaml:2: 'config' names /plans/nowhere.yaml", "check the path"},
       {"vary: none\nvary: none\n", "plan.yaml:3: 'vary' is set twice", "remove one"},
       {"threads: [\n", "plan.yaml:", "YAML is expected"},
