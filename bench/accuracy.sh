@@ -57,22 +57,6 @@ runs=$out/runs.tsv
 columns="sequence direction offset frames poses first_tracked ate_m ate_percent scale_drift seconds frames_per_s"
 tr ' ' '\t' <<<"$columns" >"$runs"
 
-# Times of the frames in their order in the sequence; TUM-mono has "id time exposure", KITTI the time alone.
-frame_times() { awk '!/^#/ && NF { print (NF == 1 ? $1 : $2) }' "$1/times.txt"; }
-
-# figure NAME FILE: the first number of the line of `ldso eval` that begins with NAME, or "fail".
-figure() {
-  awk -v name="$1" 'index($0, name) == 1 { split(substr($0, length(name) + 1), f, " "); print f[1]; found = 1; exit }
-                    END { if (!found) print "fail" }' "$2"
-}
-
-# Position of the first pose among the frames that were to be processed (standard input, in playing order).
-first_tracked() {
-  awk 'FILENAME == ARGV[1] { if (!/^#/ && NF && !seen) { first = $1; seen = 1 } next }
-       { d = $1 - first; if (d < 0) d = -d; if (FNR == 1 || d < best) { best = d; at = FNR - 1 } }
-       END { print seen ? at : "fail" }' "$1" -
-}
-
 run_once() {  # name folder direction offset
   local name=$1 folder=$2 direction=$3 offset=$4
   local dir=$out/${name}_${direction}_$offset all frames

@@ -1,4 +1,4 @@
-# To be sourced: the sequences that measurements run over.
+# To be sourced: the sequences that measurements run over, and how figures are read from results.
 
 # One "name|folder" a line: of LDSO_DATA 7scenes_kitchen and kitti/sequences/{00,05,06}, of LDSO_SIM every folder with a
 # times.txt.
@@ -18,4 +18,20 @@ list_sequences() {
       echo "$(basename "$folder")|$folder"
     done
   fi
+}
+
+# Times of the frames in their order in the sequence; TUM-mono has "id time exposure", KITTI the time alone.
+frame_times() { awk '!/^#/ && NF { print (NF == 1 ? $1 : $2) }' "$1/times.txt"; }
+
+# figure NAME FILE: the first number of the line of `ldso eval` that begins with NAME, or "fail".
+figure() {
+  awk -v name="$1" 'index($0, name) == 1 { split(substr($0, length(name) + 1), f, " "); print f[1]; found = 1; exit }
+                    END { if (!found) print "fail" }' "$2"
+}
+
+# Position of the first pose among the frames that were to be processed (standard input, in playing order).
+first_tracked() {
+  awk 'FILENAME == ARGV[1] { if (!/^#/ && NF && !seen) { first = $1; seen = 1 } next }
+       { d = $1 - first; if (d < 0) d = -d; if (FNR == 1 || d < best) { best = d; at = FNR - 1 } }
+       END { print seen ? at : "fail" }' "$1" -
 }

@@ -25,6 +25,7 @@ Window empty_window(const WindowPlace& place, const WindowSettings& settings) {
   window.camera_lin = window.camera;
   window.camera_prior << settings.focal_prior, settings.focal_prior, settings.center_prior, settings.center_prior;
   window.prior.reset(kCameraDof);
+  window.held_center = place.T_c_w.inverse().translation();
   return window;
 }
 

@@ -28,6 +28,7 @@ struct Window {
   Eigen::MatrixXd hessian;  ///< Of all variables, inverse depths eliminated, at the last optimization.
   double rmse = 0;          ///< Of the inliers at the last optimization [grey levels].
   int front = 0;            ///< Which of the two linearizations in each residual is the accepted one.
+  Eigen::Vector3d held_center = Eigen::Vector3d::Zero();  ///< In the world: where the map's first keyframe is held.
 
   int size() const { return static_cast<int>(keyframes.size()); }
   int dim() const { return kCameraDof + kFrameDof * size(); }

@@ -24,9 +24,14 @@ Eigen::MatrixXd gauge_basis(const Window& window) {
   return svd.matrixU().leftCols(rank);
 }
 
-void remove_gauge(const Window& window, Eigen::VectorXd& step) {
-  const Eigen::MatrixXd basis = gauge_basis(window);
-  step -= basis * (basis.transpose() * step);
+void remove_scale(const Window& window, Eigen::VectorXd& step) {
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(window.dim());
+  for (const auto& keyframe : window.keyframes) {
+    // A camera at c moves to held + (1 + e) (c - held): its translation grows by e T_c_w held.
+    direction.segment<3>(Window::offset(keyframe->index)) = keyframe->state.T_c_w_lin * window.held_center;
+  }
+  const double norm2 = direction.squaredNorm();
+  if (norm2 > 1e-24) step -= direction * (direction.dot(step) / norm2);
 }
 
 void remove_gauge(const Window& window, Eigen::MatrixXd& H, Eigen::VectorXd& b) {

@@ -74,17 +74,39 @@ TEST_F(Gauge, MovingAndScalingTheWorldLeavesRelativePosesUpToScale) {
   }
 }
 
-TEST_F(Gauge, RemoveGaugeIsAProjection) {
-  const auto frames = test::render_path(scene_, 3);
-  const Window window = test::true_window(scene_, frames, 60);
+/// A window in which every camera has moved away from the one that is held.
+Window held_window(const test::SyntheticScene& scene) {
+  Window window = test::true_window(scene, test::render_path(scene, 4), 60);
+  window.held_center = pose_of(window, 1).inverse().translation();
+  return window;
+}
+
+TEST_F(Gauge, AChangeOfScaleIsTakenOutWhole) {
+  const Window window = held_window(scene_);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(window.dim());
+  for (int i = 0; i < window.size(); ++i) {
+    const Eigen::Vector3d center = pose_of(window, i).inverse().translation();
+    const Eigen::Vector3d scaled = window.held_center + 1.001 * (center - window.held_center);
+    step.segment<3>(Window::offset(i)) = -(pose_of(window, i).rotation() * scaled) - pose_of(window, i).translation();
+  }
+  ASSERT_GT(step.norm(), 1e-5);
+  remove_scale(window, step);
+  EXPECT_LT(step.norm(), 1e-12);
+}
+
+TEST_F(Gauge, WithoutScaleTheHeldKeyframeMovesAsBefore) {
+  const Window window = held_window(scene_);
   std::mt19937 random(1);
   Eigen::VectorXd step(window.dim());
   for (double& x : step) x = test::uniform(random, -1, 1);
-  const Eigen::MatrixXd N = gauge_basis(window);
   Eigen::VectorXd once = step;
-  remove_gauge(window, once);
-  EXPECT_LT((N.transpose() * once).norm(), 1e-10);
-  EXPECT_LT((step - once - N * (N.transpose() * step)).norm(), 1e-10);
+  remove_scale(window, once);
+  EXPECT_GT((step - once).norm(), 1e-3);
+  const int held = Window::offset(1);
+  EXPECT_LT((step - once).segment<kFrameDof>(held).norm(), 1e-12);
+  Eigen::VectorXd twice = once;
+  remove_scale(window, twice);
+  EXPECT_LT((twice - once).norm(), 1e-12);
 }
 
 TEST_F(Gauge, NormalEquationsDoNotFeelIt) {

@@ -31,8 +31,8 @@ constexpr float kFixedOutlierRoot = 26.0f;
 constexpr double kOutlierQuantile = 0.7;
 /// times this.
 constexpr float kOutlierSlack = 1.5f;
-/// From this iteration on the step may not move along the gauge (DSO section 2.3).
-constexpr int kFirstGaugeFreeIteration = 2;
+/// From this iteration on the step may not change the scale (DSO section 2.3).
+constexpr int kFirstFixedScaleIteration = 2;
 
 void back_up(Window& window) {
   window.camera_backup = window.camera;
@@ -127,7 +127,7 @@ OptimizationReport WindowOptimizer::optimize(Window& window, int max_iterations)
 
 bool WindowOptimizer::try_step(Window& window, const std::vector<PointChunk>& chunks, int iteration) {
   const NormalEquations equations = builder_.build(window, FramePairs(window), chunks, lambda_);
-  const Eigen::VectorXd step = solve(window, equations, lambda_, iteration >= kFirstGaugeFreeIteration);
+  const Eigen::VectorXd step = solve(window, equations, lambda_, iteration >= kFirstFixedScaleIteration);
   if (!step.allFinite()) return false;
   builder_.back_substitute(chunks, step);
   back_up(window);
@@ -147,7 +147,7 @@ bool WindowOptimizer::try_step(Window& window, const std::vector<PointChunk>& ch
 }
 
 Eigen::VectorXd WindowOptimizer::solve(Window& window, const NormalEquations& equations, double lambda,
-                                       bool fix_gauge) const {
+                                       bool fix_scale) const {
   const Eigen::VectorXd delta = window.delta();
   Eigen::MatrixXd H = equations.H + window.prior.H;
   Eigen::VectorXd b = equations.b + window.prior.gradient(delta);
@@ -165,7 +165,7 @@ Eigen::VectorXd WindowOptimizer::solve(Window& window, const NormalEquations& eq
   const Eigen::VectorXd scale = (H.diagonal().array().abs() + 10).sqrt().inverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * H * scale.asDiagonal();
   Eigen::VectorXd step = -scale.cwiseProduct(scaled.ldlt().solve(scale.cwiseProduct(b)));
-  if (fix_gauge) remove_gauge(window, step);
+  if (fix_scale) remove_scale(window, step);
   return step;
 }
 

@@ -27,7 +27,7 @@ class WindowOptimizer {
 
  private:
   bool try_step(Window& window, const std::vector<PointChunk>& chunks, int iteration);
-  Eigen::VectorXd solve(Window& window, const NormalEquations& equations, double lambda, bool fix_gauge) const;
+  Eigen::VectorXd solve(Window& window, const NormalEquations& equations, double lambda, bool fix_scale) const;
   void settle(Window& window, const std::vector<PointChunk>& chunks, OptimizationReport& report);
 
   ThreadPool& pool_;

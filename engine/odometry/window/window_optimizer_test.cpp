@@ -114,6 +114,19 @@ TEST_F(WindowOptimizerTest, ARollingShutterThatIsKnownDoesNoHarm) {
   EXPECT_GT(ignored.rotation, 2 * known.rotation);
 }
 
+/// As in a real window: a stiff prior holds the first keyframe. Steps that moved it to keep the mean pose were refused.
+TEST_F(WindowOptimizerTest, ConvergesAsWellWhileTheFirstKeyframeIsHeld) {
+  Window window = disturbed_window();
+  Keyframe& first = *window.keyframes.front();
+  first.prior << Eigen::Vector3d::Constant(4e10), Eigen::Vector3d::Constant(1e11), 1e12, 1e8;
+  window.held_center = first.state.T_c_w().inverse().translation();
+  const SE3d T_held = first.state.T_c_w();
+  ASSERT_GT(errors_of(window, *scene_).translation, 0.02);
+  WindowOptimizer(pool_).optimize(window, 20);
+  expect_truth(window, *scene_);
+  EXPECT_LT((first.state.T_c_w() * T_held.inverse()).log().norm(), 1e-6);
+}
+
 TEST_F(WindowOptimizerTest, EnergyDecreasesWithEveryIteration) {
   double last = 0, first = 0;
   for (int iterations = 0; iterations <= 8; ++iterations) {
