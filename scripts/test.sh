@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Builds everything and runs all tests: those of the rooms, whole sequences end to end, and the checks of the sources.
 #
-#   scripts/test.sh [--preset release|debug|asan|tsan|ci] [--rooms "NAMES"] [options for ctest, e.g. -R image]
+#   scripts/test.sh [--preset release|debug|asan|tsan|ci] [--rooms "NAMES"] [--short] [options for ctest, e.g. -R image]
 #     --preset P      asan: address and undefined-behaviour sanitizer, tsan: thread sanitizer, ci: warnings are errors
 #                     (default: release)
 #     --rooms "NAMES" only the tests of these rooms, e.g. "util io"; nothing else is built
+#     --short         without the tests that take long: whole sequences with bounds on accuracy, browsers
 # The last lines are ctest's: how many tests passed and which failed.
 set -euo pipefail
 export LC_ALL=C
@@ -18,6 +19,7 @@ ctest_options=()
 while (($# > 0)); do
   case $1 in
     --preset) preset=${2:?--preset takes a name}; shift 2 ;;
+    --short) ctest_options+=(-LE long); shift ;;
     --rooms) rooms=${2:?--rooms takes names}; shift 2 ;;
     -h | --help) usage 0 ;;
     *) ctest_options+=("$1"); shift ;;
