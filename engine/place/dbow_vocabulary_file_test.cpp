@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <random>
 #include <sstream>
 #include <vector>
@@ -66,8 +67,9 @@ Bytes text_file(const DbowTree& tree, const char* line_end = "\n") {
 template <class Number>
 void put(Number value, Bytes& bytes) {
   static_assert(std::endian::native == std::endian::little, "this writer is for the usual machines");
-  const auto* raw = reinterpret_cast<const std::uint8_t*>(&value);
-  bytes.insert(bytes.end(), raw, raw + sizeof(value));
+  std::array<std::uint8_t, sizeof(Number)> raw{};
+  std::memcpy(raw.data(), &value, sizeof(value));
+  for (const std::uint8_t byte : raw) bytes.push_back(byte);
 }
 
 /// Parents before children, the last sibling's children first; words in the order of the nodes.
