@@ -10,6 +10,7 @@ unset DISPLAY WAYLAND_DISPLAY
 repeat_sequence "$SEQUENCE" "$WORK/sequence" 4
 expect_exit 0 run "$WORK/sequence" -o "$WORK/alone" --quiet
 for address in 127.0.0.1:0 0.0.0.0:0; do
+  : >"$WORK/log"  # The run empties it only when it begins, and until then the last one's address stands there.
   "$LDSO" run "$WORK/sequence" -o "$WORK/attacked" --view="$address" --view-paused --view-exit >"$WORK/log" 2>&1 &
   pid=$!
   trap 'kill -KILL "$pid" 2>/dev/null || true' EXIT

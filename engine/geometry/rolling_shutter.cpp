@@ -5,6 +5,7 @@
 namespace ldso {
 
 double covered_rows(const CameraModel& camera, const PinholeIntrinsics& rectified) {
+  // Columns over which rows are averaged: distortion is smooth.
   constexpr int kColumns = 9;
   double rows = 0;
   int columns = 0;

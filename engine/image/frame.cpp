@@ -6,10 +6,11 @@
 namespace ldso {
 namespace {
 
-// The coarsest level still needs structure: about 48 x 30 pixels are the least that align a frame.
+/// The coarsest level still needs structure: about 48 x 30 pixels are the least that align a frame [px].
 constexpr int kMinCoarsestWidth = 48;
+/// The same for the height [px].
 constexpr int kMinCoarsestHeight = 30;
-// As many as the iterations of tracking are set for.
+/// As many as the iterations of tracking are set for.
 constexpr int kMaxLevels = 6;
 
 }  // namespace

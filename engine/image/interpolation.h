@@ -69,10 +69,13 @@ inline Texel bilinear(const ImageView<const Texel>& image, float x, float y) {
   return detail::bilinear(image, static_cast<int>(x), static_cast<int>(y), x, y);
 }
 
+/// What `valid` of quadratic() exceeds where all four pixels are valid: 1 but for rounding.
+inline constexpr float kAllValid = 0.999f;
+
 /// Intensity with the curvature along both axes that the texels' gradients tell. Bilinear interpolation flattens what
 /// lies between pixels, which draws points to whole pixels and shows as drift of scale in driving (a noiseless street's
 /// ATE: 0.036 m, with cubic interpolation 0.012 m; this is the cubic without its small odd term). The rest is bilinear,
-/// but `valid` is 1 only where all four are.
+/// but `valid` is interpolated, too: compare it with kAllValid.
 inline Texel quadratic(const ImageView<const Texel>& image, float x, float y) {
   const int left = static_cast<int>(x), top = static_cast<int>(y);
   const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);

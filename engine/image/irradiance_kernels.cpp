@@ -47,6 +47,7 @@ namespace ldso {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Pixels that go through all steps at once: the steps' buffers stay in the first-level cache.
 constexpr int kBlock = 64;
 
 // Grey levels within 0..255; 0 for what is no number.

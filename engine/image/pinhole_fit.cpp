@@ -12,7 +12,22 @@
 namespace ldso {
 namespace {
 
+/// Where errors say that they come from.
 constexpr char kContext[] = "rectification";
+/// Columns on each side of the centre among which the largest rectangle is searched: less than a pixel apart in images
+/// of up to a thousand.
+constexpr int kColumns = 512;
+/// Steps in which the border of the visible region is approached, of tan(angle to the optical axis): no gap in what a
+/// lens sees is narrower.
+constexpr double kStep = 0.01;
+/// Bisections of such a step: down to 1e-14.
+constexpr int kBisections = 40;
+/// Steps by which a rectangle shrinks whose border is not visible yet, of its pixels.
+constexpr double kShrinkStep = 0.05;
+/// Such steps at most, 20 pixels in all: what needs more is no rectangle inside of the image.
+constexpr int kMostShrinkSteps = 400;
+/// Spacing of the grid inside of the image that finds where a camera model ends [px].
+constexpr int kGrid = 8;
 
 struct Size {
   int width = 0;
@@ -99,7 +114,7 @@ double visible_length(const VisibleRegion& region, const Eigen::Vector2d& start,
     outside += step;
   }
   outside = std::min(outside, limit);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (inside + outside);
     (region.contains(start + middle * direction) ? inside : outside) = middle;
   }
@@ -111,9 +126,6 @@ double visible_length(const VisibleRegion& region, const Eigen::Vector2d& start,
 struct SideProfile {
   std::vector<double> x, top, bottom;
 };
-
-constexpr int kColumns = 512;
-constexpr double kStep = 0.01;
 
 SideProfile side_profile(const VisibleRegion& region, const Eigen::Vector2d& centre, double sign) {
   const double limit = VisibleRegion::kMaxTangent;
@@ -157,12 +169,12 @@ bool is_line_visible(const VisibleRegion& region, const Eigen::Vector2d& from, c
   return true;
 }
 
-/// Moves every side inward by a twentieth of a pixel until all pixels of the border are visible: the search looked at
+/// Moves every side inward by a part of a pixel until all pixels of the border are visible: the search looked at
 /// a finite number of columns only.
 PlaneBox shrink_to_visible(const VisibleRegion& region, PlaneBox box, const Size& size) {
-  const double step_x = 0.05 * (box.right - box.left) / size.width;
-  const double step_y = 0.05 * (box.bottom - box.top) / size.height;
-  for (int attempt = 0; attempt < 400; ++attempt) {
+  const double step_x = kShrinkStep * (box.right - box.left) / size.width;
+  const double step_y = kShrinkStep * (box.bottom - box.top) / size.height;
+  for (int attempt = 0; attempt < kMostShrinkSteps; ++attempt) {
     const Eigen::Vector2d upper_left(box.left, box.top), upper_right(box.right, box.top);
     const Eigen::Vector2d lower_left(box.left, box.bottom), lower_right(box.right, box.bottom);
     const bool left = is_line_visible(region, upper_left, lower_left, size.height);
@@ -208,7 +220,6 @@ void extend(PlaneBox& box, const VisibleRegion& region, double x, double y) {
 /// The border of the input decides, except where the model ends inside of the image: hence the grid.
 PlaneBox bounding_box(const VisibleRegion& region) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr int kGrid = 8;
   PlaneBox box{kInfinity, -kInfinity, kInfinity, -kInfinity};
   const int last_x = region.input_width() - 1;
   const int last_y = region.input_height() - 1;

@@ -78,6 +78,7 @@ void remap_block(const float* upper_pairs, const float* lower_pairs, const float
 }
 
 void remap_image(ImageView<const float> input, const RemapTable& table, ImageView<float> output) {
+  // Pixels whose neighbours are fetched at once: the buffers stay in the first-level cache.
   constexpr int kBlock = 64;
   alignas(64) float upper_pairs[2 * kBlock];
   alignas(64) float lower_pairs[2 * kBlock];

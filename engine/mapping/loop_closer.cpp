@@ -3,12 +3,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "mapping/map/chain_table.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -131,20 +131,16 @@ std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDi
   const Sim3d error = Sim3d::exp(d.x);
   const Eigen::Vector3d moved =
       hypothesis.S_current_candidate.translation() - (error.inverse() * hypothesis.S_current_candidate).translation();
-  char text[160];
   const double far = moved.norm(), most = settings_.max_drift * d.length + unit;
   if (far > most) {
-    std::snprintf(text, sizeof(text), "the odometry cannot be off by so much: %.3g (at most %.3g)", far, most);
-    return text;
+    return format_text("the odometry cannot be off by so much: %.3g (at most %.3g)", far, most);
   }
   const double angle = d.x.segment<3>(3).norm() * 180 / std::numbers::pi;
   if (angle > settings_.drift.max_rotation_deg) {
-    std::snprintf(text, sizeof(text), "the odometry cannot be turned by so much: %.3g deg", angle);
-    return text;
+    return format_text("the odometry cannot be turned by so much: %.3g deg", angle);
   }
   if (std::abs(d.x[6]) > settings_.drift.max_log_scale) {
-    std::snprintf(text, sizeof(text), "the odometry's scale cannot be off by so much: %.3g", std::exp(d.x[6]));
-    return text;
+    return format_text("the odometry's scale cannot be off by so much: %.3g", std::exp(d.x[6]));
   }
   return {};
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// Iterations at least with two keyframes: depths are still rough then.
 constexpr int kFirstIterations = 20;
-/// With three.
+/// Iterations at least with three keyframes.
 constexpr int kSecondIterations = 15;
 
 /// What an optimization changes of a window, but for the point of linearization of the prior, which stays.

@@ -6,24 +6,15 @@
 #include <memory>
 #include <vector>
 
-#include "odometry/test_synthetic_scene.h"
+#include "odometry/test_rendered_path.h"
 
 namespace ldso {
 namespace {
 
 constexpr int kKeyframes = 4;
 
-class KeyframeMakerTest : public testing::Test {
+class KeyframeMakerTest : public test::RenderedPathTest<12> {
  protected:
-  static void SetUpTestSuite() {
-    scene_ = std::make_unique<test::SyntheticScene>();
-    frames_ = test::render_path(*scene_, 12);
-  }
-  static void TearDownTestSuite() {
-    frames_.clear();
-    scene_.reset();
-  }
-
   /// The first frames of the path as keyframes, a bit away from the truth.
   Window optimized_window() {
     Window window = test::true_window(*scene_, {frames_.begin(), frames_.begin() + kKeyframes}, 14);
@@ -42,14 +33,9 @@ class KeyframeMakerTest : public testing::Test {
                      SE3d::Tangent::Zero());
   }
 
-  static std::unique_ptr<test::SyntheticScene> scene_;
-  static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
   ThreadPool pool_{1};
   StageTimes times_;
 };
-
-std::unique_ptr<test::SyntheticScene> KeyframeMakerTest::scene_;
-std::vector<std::shared_ptr<const PreparedFrame>> KeyframeMakerTest::frames_;
 
 TEST_F(KeyframeMakerTest, TheNewestKeyframeGetsCandidatesAndThosePastTheMostLeave) {
   Settings settings;

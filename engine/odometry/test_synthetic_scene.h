@@ -26,6 +26,10 @@ inline double uniform(std::mt19937& generator, double low, double high) {
   return low + (high - low) * (static_cast<double>(generator()) / 4294967296.0);
 }
 
+inline float random_float(std::mt19937& generator, double low, double high) {
+  return static_cast<float>(uniform(generator, low, high));
+}
+
 inline SE3d::Tangent random_tangent(std::mt19937& generator, double translation, double rotation) {
   SE3d::Tangent x;
   for (int i = 0; i < 3; ++i) x[i] = uniform(generator, -translation, translation);

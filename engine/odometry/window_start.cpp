@@ -9,11 +9,11 @@ namespace {
 
 /// Precision of the prior that holds the first keyframe's place, far above all that residuals tell [1 / map unit^2].
 constexpr double kFirstTranslationPrior = 4e10;
-/// Of its rotation [1 / rad^2].
+/// Precision of the prior that holds the first keyframe's rotation [1 / rad^2].
 constexpr double kFirstRotationPrior = 1e11;
-/// Of its log brightness factor.
+/// Precision of the prior that holds the first keyframe's log brightness factor.
 constexpr double kFirstBrightnessPriorA = 1e12;
-/// Of its brightness offset [1 / grey levels^2].
+/// Precision of the prior that holds the first keyframe's brightness offset [1 / grey levels^2].
 constexpr double kFirstBrightnessPriorB = 1e8;
 
 Window empty_window(const WindowPlace& place, const WindowSettings& settings) {

@@ -13,8 +13,11 @@
 namespace ldso {
 namespace {
 
+/// What binary files of DBoW3 begin with.
 constexpr std::uint64_t kDbow3Signature = 88877711233ULL;
+/// Of an ORB descriptor.
 constexpr std::uint32_t kDescriptorBytes = 32;
+/// Bytes of a node in such a file: id, parent, weight, three numbers on its descriptor, and the descriptor.
 constexpr std::size_t kDbow3NodeSize = 4 + 4 + 8 + 3 * 4 + kDescriptorBytes;
 
 /// Numbers of a text, line by line. std::from_chars: ORBvoc.txt has 36 million of them.

@@ -7,7 +7,9 @@
 namespace ldso {
 namespace {
 
-constexpr int kChunk = 4096;  ///< Descriptors.
+/// Descriptors that a thread takes at once.
+constexpr int kChunk = 4096;
+/// Of an ORB descriptor.
 constexpr int kBits = 256;
 
 /// All sums below are of integers: they do not depend on how the work is divided.

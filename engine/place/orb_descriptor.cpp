@@ -14,7 +14,8 @@
 namespace ldso {
 namespace {
 
-constexpr int kCentroidRadius = 15;  ///< Of the disc whose intensity centroid gives the orientation [px].
+/// Of the disc whose intensity centroid gives the orientation (Rublee et al., ORB, ICCV 2011, section 3.2) [px].
+constexpr int kCentroidRadius = 15;
 
 /// Half the width of each row of the disc, rows 0..kCentroidRadius from its centre.
 constexpr std::array<int, kCentroidRadius + 1> kDiscHalfWidths{15, 15, 15, 15, 14, 14, 14, 13,
@@ -23,6 +24,7 @@ constexpr std::array<int, kCentroidRadius + 1> kDiscHalfWidths{15, 15, 15, 15, 1
 /// Comparisons do not change under monotone functions, but rounding to 8 bits would wipe out the dark parts of a linear
 /// irradiance. Its root has about the same noise everywhere, since photons arrive as a Poisson process.
 cv::Mat to_8_bit(const Image<Texel>& image) {
+  // Of the table: dark grey levels are stretched by the root.
   constexpr int kStepsPerLevel = 4;
   static const auto kTable = [] {
     std::array<std::uint8_t, 256 * kStepsPerLevel> roots{};

@@ -2,7 +2,7 @@
 
 // Corners to features: an orientation and 256 intensity comparisons each (Rublee, Rabaud, Konolige, Bradski: ORB, ICCV
 // 2011). Where the corners are is the selection's business: the odometry tracks them, so they carry depth
-// [LDSO paper III-B].
+// (LDSO III-B).
 
 #include <Eigen/Core>
 #include <span>

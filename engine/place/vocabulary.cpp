@@ -9,6 +9,7 @@
 namespace ldso {
 namespace {
 
+/// What an error of a vocabulary suggests.
 constexpr const char* kRemedy = "train the vocabulary again or take another file";
 
 /// Indices of the nodes by parent: those of parent p are list[begin[p]] .. list[begin[p + 1] - 1], in their order.

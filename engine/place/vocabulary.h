@@ -39,6 +39,7 @@ class Vocabulary {
   /// than kMaxDepth.
   explicit Vocabulary(std::span<const VocabularyNode> nodes, std::string origin = {});
 
+  /// Far deeper than any vocabulary: one of ten children a node has 1e6 words at depth 6.
   static constexpr int kMaxDepth = 32;
 
   /// The word of a descriptor: down from the root, each time to the nearest child (of equally near ones the first).

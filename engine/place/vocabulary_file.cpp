@@ -14,7 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of the format.
 constexpr std::uint32_t kVersion = 1;
+/// Bytes at the end of a file.
 constexpr std::size_t kChecksumSize = 8;
 
 std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {

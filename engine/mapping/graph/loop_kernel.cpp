@@ -7,7 +7,8 @@
 namespace ldso {
 namespace {
 
-constexpr double kMedianChi2 = 6.346;  // of seven degrees of freedom
+/// Median of chi squared with seven degrees of freedom.
+constexpr double kMedianChi2 = 6.346;
 
 double largest(const std::vector<double>& chi2) {
   return chi2.empty() ? 0 : *std::max_element(chi2.begin(), chi2.end());

@@ -10,10 +10,15 @@ namespace {
 
 using Vector7d = PoseGraphResidual::Vector7d;
 
-/// Relative to a diagonal of ones. Eigenvalues below it are rounding (a matrix of seven rows that comes from sums and
-/// differences), and a Cholesky factor whose pivots are above it is accurate.
+/// Eigenvalues below it are rounding, in a matrix of seven rows that comes from sums and differences. Relative to a
+/// diagonal of ones.
 constexpr double kSmallestEigenvalue = 1e-13;
+/// A Cholesky factor whose squared pivots are above it is accurate. Relative to a diagonal of ones.
 constexpr double kSmallestPivot = 1e-9;
+/// Largest norm of the small adjoint for which the series of left_jacobian_inverse() is exact enough.
+constexpr double kLargestSeriesNorm = 0.1;
+/// Below this norm the series' term of fourth order is rounding.
+constexpr double kSmallSeriesNorm = 0.01;
 
 Matrix7d eigen_square_root(const Matrix7d& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Matrix7d> eigen(symmetric);
@@ -30,10 +35,10 @@ Matrix7d eigen_square_root(const Matrix7d& symmetric) {
 Matrix7d left_jacobian_inverse(const Vector7d& x) {
   const Matrix7d A = Sim3d::small_adjoint(x);
   const double norm = A.cwiseAbs().colwise().sum().maxCoeff();
-  if (!(norm < 0.1)) return Sim3d::left_jacobian_inverse(x);
+  if (!(norm < kLargestSeriesNorm)) return Sim3d::left_jacobian_inverse(x);
   const Matrix7d A2 = A.lazyProduct(A);
   Matrix7d J = Matrix7d::Identity() - A / 2 + A2 / 12;
-  if (norm > 0.01) J -= A2.lazyProduct(A2) / 720;
+  if (norm > kSmallSeriesNorm) J -= A2.lazyProduct(A2) / 720;
   return J;
 }
 

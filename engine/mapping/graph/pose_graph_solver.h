@@ -32,7 +32,8 @@ struct PoseGraphProblem {
   std::vector<Sim3d> poses;  ///< S_world_keyframe; all are connected.
   int fixed = 0;             ///< This one stays.
   std::vector<PoseGraphTerm> odometry, loops;
-  PoseGraphResidual::Vector7d odometry_weights;  ///< D of the odometry's residuals.
+  PoseGraphResidual::Vector7d odometry_weights =
+      PoseGraphResidual::Vector7d::Ones();  ///< D of the odometry's residuals.
   /// Start with loops of full weight, however large their residuals, and narrow their kernel step by step.
   bool graduated = false;
 };

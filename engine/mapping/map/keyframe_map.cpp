@@ -116,6 +116,7 @@ OdometryChain KeyframeMap::chain(int from, int to) const {
     }
     const Link step = link(at, it->second);
     const Matrix7d A = S.adjoint();
+    // Translation, rotation and scale: first coordinate and number of coordinates.
     constexpr std::array<std::pair<int, int>, 3> kBlocks = {{{0, 3}, {3, 3}, {6, 1}}};
     for (int k = 0; k < 3; ++k) {
       const auto [first, count] = kBlocks[k];

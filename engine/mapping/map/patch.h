@@ -15,6 +15,7 @@
 namespace ldso {
 
 struct Patch {
+  /// Half the side [px]: large enough for four unknowns, small enough to lie on one plane.
   static constexpr int kRadius = 3;
   static constexpr int kSide = 2 * kRadius + 1;
   static constexpr int kPixels = kSide * kSide;

@@ -9,7 +9,9 @@
 namespace ldso {
 namespace {
 
-constexpr int kNoDistance = 257;  // beyond every Hamming distance
+/// Beyond every Hamming distance of 256 bits.
+constexpr int kNoDistance = 257;
+/// A full turn [rad].
 constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 
 /// The angle in -pi..pi; NaN stays NaN.
@@ -92,6 +94,7 @@ void compare_all(std::span<const MapFeature> a, std::span<const MapFeature> b, N
 /// The turn that most matches have: the fullest three neighbouring bins of a circular histogram, refined to the mean
 /// direction of what lies in them. NaN if no turn is finite.
 float common_turn(std::span<const float> turns) {
+  // Of ten degrees each: orientations of the same corner differ by about as much.
   constexpr int kBins = 36;
   const auto bin_of = [](float turn) {
     const int bin = static_cast<int>(std::floor((turn + kTwoPi / 2) / kTwoPi * kBins));
@@ -147,8 +150,10 @@ class FeatureGrid {
   }
 
  private:
+  /// Cells in each direction; what lies beyond the last one is filed in it.
   static constexpr int kSide = 64;
-  static constexpr float kCellSize = 24;  // [px]; what lies beyond the last cell is filed in it
+  /// Above the usual diameter of a search, which then touches four cells at most [px].
+  static constexpr float kCellSize = 24;
 
   static bool is_finite(const MapFeature& f) { return std::isfinite(f.feature.u) && std::isfinite(f.feature.v); }
   static int line_of(float coordinate) {

@@ -21,6 +21,7 @@ struct Distances {
   double unit = 1;        ///< Length of the longest side in the points' unit.
 };
 
+/// The points of each pair, which has the number of the third one.
 constexpr int kPairs[3][2] = {{1, 2}, {0, 2}, {0, 1}};
 
 /// False for a triangle or for bearings that determine no pose.

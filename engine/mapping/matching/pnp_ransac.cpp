@@ -1,7 +1,6 @@
 #include "mapping/matching/pnp_ransac.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <random>
 
 #include "geometry/pinhole_projection.h"
+#include "geometry/well_determined.h"
 #include "mapping/matching/p3p.h"
 
 namespace ldso {
@@ -18,6 +18,16 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Least squares and new inliers in turn, at most: it ends by itself as soon as that lowers the cost no more.
+constexpr int kRefinements = 10;
+/// Gauss-Newton steps of one least squares, at most: P3P starts near the solution.
+constexpr int kSteps = 10;
+/// A step that lowers the cost by a smaller share of it is the last one.
+constexpr double kSmallGain = 1e-9;
+/// A confidence of 1 would need infinitely many samples.
+constexpr double kMostConfidence = 1 - 1e-12;
+/// Correspondences that confirm a pose at least: three determine it.
+constexpr int kLeastInliers = 4;
 
 bool is_usable(const PnpCorrespondence& c) {
   return c.point.allFinite() && c.pixel.allFinite() && std::isfinite(c.sigma_px) && c.sigma_px > 0;
@@ -71,21 +81,16 @@ class PnpProblem {
 
   /// Least squares over the inliers, new inliers, and so on while that lowers the cost.
   void optimize(Hypothesis& hypothesis) const {
-    constexpr int kRounds = 10;
-    for (int round = 0; round < kRounds && hypothesis.inliers.size() >= 3; ++round) {
+    for (int round = 0; round < kRefinements && hypothesis.inliers.size() >= 3; ++round) {
       Hypothesis next = evaluate(least_squares(hypothesis.T, hypothesis.inliers), hypothesis.cost);
       if (!(next.cost < hypothesis.cost)) return;
       hypothesis = std::move(next);
     }
   }
 
-  /// Whether the inliers determine all six degrees of freedom, in units that cancel (unit diagonal).
+  /// Whether the inliers determine all six degrees of freedom.
   bool determines_pose(const Hypothesis& hypothesis) const {
-    const Matrix6d H = linearize(hypothesis.T, hypothesis.inliers).H;
-    if (!H.allFinite() || !(H.diagonal().minCoeff() > 0)) return false;
-    const Vector6d scale = H.diagonal().cwiseSqrt().cwiseInverse();
-    const Matrix6d scaled = scale.asDiagonal() * H * scale.asDiagonal();
-    return Eigen::SelfAdjointEigenSolver<Matrix6d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0] > 1e-10;
+    return is_well_determined(linearize(hypothesis.T, hypothesis.inliers).H);
   }
 
  private:
@@ -123,7 +128,6 @@ class PnpProblem {
 
   /// Gauss-Newton while it lowers the sum of squares.
   SE3d least_squares(SE3d T, std::span<const int> inliers) const {
-    constexpr int kSteps = 10;
     for (int step = 0; step < kSteps; ++step) {
       const NormalEquations equations = linearize(T, inliers);
       const Vector6d x = equations.H.ldlt().solve(equations.b);
@@ -132,7 +136,7 @@ class PnpProblem {
       const double next_cost = cost(next, inliers);
       if (!(next_cost < equations.cost)) break;
       T = next;
-      if (equations.cost - next_cost < 1e-9 * equations.cost) break;
+      if (equations.cost - next_cost < kSmallGain * equations.cost) break;
     }
     return T;
   }
@@ -161,7 +165,7 @@ std::array<int, 3> draw_sample(std::mt19937_64& generator, int size) {
 double samples_needed(double inlier_share, double confidence) {
   const double miss = -std::pow(inlier_share, 3);
   if (miss <= -1) return 1;
-  return std::log1p(-std::clamp(confidence, 0.0, 1 - 1e-12)) / std::log1p(miss);
+  return std::log1p(-std::clamp(confidence, 0.0, kMostConfidence)) / std::log1p(miss);
 }
 
 }  // namespace
@@ -169,7 +173,7 @@ double samples_needed(double inlier_share, double confidence) {
 std::optional<PnpResult> pnp_ransac(std::span<const PnpCorrespondence> correspondences, const PinholeIntrinsics& camera,
                                     const PnpSettings& settings) {
   const PnpProblem problem(correspondences, camera, settings.threshold);
-  const int enough = std::max(settings.min_inliers, 4);
+  const int enough = std::max(settings.min_inliers, kLeastInliers);
   if (!is_valid(camera) || problem.size() < enough) return std::nullopt;
   std::mt19937_64 generator(static_cast<std::uint64_t>(settings.seed));
   Hypothesis best;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "mapping/matching/descriptor_matcher.h"
 #include "mapping/matching/inlier_spread.h"
 #include "mapping/matching/pnp_ransac.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -141,7 +141,10 @@ void borrow_depths(Scene& scene) {
 
 /// Good enough to search around.
 SimilaritySettings rough(SimilaritySettings settings) {
-  constexpr int kRounds = 2, kIterations = 6;
+  // Enough to tell which points are in view; the exact similarity is estimated afterwards.
+  constexpr int kRounds = 2;
+  // Of each round.
+  constexpr int kIterations = 6;
   settings.max_robust_rounds = std::min(settings.max_robust_rounds, kRounds);
   settings.max_inlier_rounds = std::min(settings.max_inlier_rounds, kRounds);
   settings.max_iterations = std::min(settings.max_iterations, kIterations);
@@ -198,9 +201,7 @@ void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, const
 }
 
 std::string refusal(const char* what, double value, const char* limit_word, double limit) {
-  char text[160];
-  std::snprintf(text, sizeof(text), "%s: %.3g (%s %.3g)", what, value, limit_word, limit);
-  return text;
+  return format_text("%s: %.3g (%s %.3g)", what, value, limit_word, limit);
 }
 
 /// Whether too few matches agree on the similarity; empty if they are enough.

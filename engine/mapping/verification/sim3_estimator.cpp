@@ -8,6 +8,7 @@
 #include <map>
 
 #include "geometry/pinhole_projection.h"
+#include "geometry/well_determined.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -16,10 +17,30 @@ namespace {
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Quantiles of chi-squared with two and one degrees of freedom.
-constexpr double kPixelGate = 9.2103, kDepthGate = 6.6349;           // 99 %
-constexpr double kPixelMedian = 1.38629436, kDepthMedian = 0.45494;  // 50 %
-constexpr double kBehindCamera = 1e8;  // squared error of a point that ends up behind the camera
+/// Squared error that 99 % of all right pixels stay below: chi squared with two degrees of freedom.
+constexpr double kPixelGate = 9.2103;
+/// The same of depths: one degree of freedom.
+constexpr double kDepthGate = 6.6349;
+/// Median squared error of right pixels: chi squared with two degrees of freedom.
+constexpr double kPixelMedian = 1.38629436;
+/// The same of depths: one degree of freedom.
+constexpr double kDepthMedian = 0.45494;
+/// Squared error of a point that ends up behind the camera.
+constexpr double kBehindCamera = 1e8;
+/// Squared step, x^T H x [standard deviations^2], after which least squares are done.
+constexpr double kSmallStep = 1e-6;
+/// The same of the robust start, which needs to be no more than near.
+constexpr double kSmallRobustStep = 1e-3;
+/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal: matches start near the solution.
+constexpr double kFirstDamping = 1e-6;
+/// Damping never falls below this.
+constexpr double kLeastDamping = 1e-12;
+/// With more damping steps move nothing.
+constexpr double kMostDamping = 1e6;
+/// Factor on the damping after a step that lowers the cost.
+constexpr double kDampingDown = 0.1;
+/// Factor on the damping after a step that does not.
+constexpr double kDampingUp = 10;
 
 /// Squared errors of a match in standard deviations; infinite if it has none.
 struct SquaredError {
@@ -46,14 +67,6 @@ double cauchy_cost(double squared, double c_squared) {
   return std::isinf(c_squared) ? squared : c_squared * std::log1p(squared / c_squared);
 }
 double cauchy_weight(double squared, double c_squared) { return 1 / (1 + squared / c_squared); }
-
-/// Whether the matrix is positive definite in units that cancel (unit diagonal), with digits to spare.
-bool is_well_determined(const Matrix7d& H) {
-  if (!H.allFinite() || !(H.diagonal().minCoeff() > 0)) return false;
-  const Vector7d scale = H.diagonal().cwiseSqrt().cwiseInverse();
-  const Matrix7d scaled = scale.asDiagonal() * H * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix7d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0] > 1e-10;
-}
 
 /// The matches as a least-squares problem in the similarity.
 class Sim3Problem {
@@ -143,8 +156,7 @@ void fix_scale(NormalEquations& equations) {
 /// Levenberg-Marquardt; returns the number of steps tried.
 int optimize(const Sim3Problem& problem, std::span<const Weights> weights, double c_squared, int max_iterations,
              Sim3d& S) {
-  // Squared step in standard deviations, x^T H x; the robust start needs to be no more than near.
-  const double small_step = std::isinf(c_squared) ? 1e-6 : 1e-3;
+  const double small_step = std::isinf(c_squared) ? kSmallStep : kSmallRobustStep;
   const bool has_depth = any_depth(weights);
   const auto linearize_at = [&](const Sim3d& at) {
     NormalEquations equations = problem.linearize(at, weights, c_squared);
@@ -152,9 +164,9 @@ int optimize(const Sim3Problem& problem, std::span<const Weights> weights, doubl
     return equations;
   };
   NormalEquations equations = linearize_at(S);
-  double damping = 1e-6;
+  double damping = kFirstDamping;
   int iteration = 0;
-  while (iteration < max_iterations && damping < 1e6) {
+  while (iteration < max_iterations && damping < kMostDamping) {
     ++iteration;
     Matrix7d H = equations.H;
     H.diagonal() *= 1 + damping;
@@ -169,7 +181,7 @@ int optimize(const Sim3Problem& problem, std::span<const Weights> weights, doubl
       equations = next_equations;
     }
     if (is_small) break;
-    damping = is_better ? std::max(0.1 * damping, 1e-12) : 10 * damping;
+    damping = is_better ? std::max(kDampingDown * damping, kLeastDamping) : kDampingUp * damping;
   }
   return iteration;
 }

@@ -31,6 +31,21 @@ constexpr float kOutlierSlack = 1.2f;
 constexpr int kRefinements = 4;
 /// A match is believed to be that wrong at most [px].
 constexpr float kLargestError = 10;
+/// Error of a match that a wrong epipolar line causes [px].
+constexpr float kLineError = 0.2f;
+/// Error of a match that the image causes where its gradient lies along the line; it grows as the gradient turns away
+/// [px].
+constexpr float kImageError = 0.2f;
+/// Where the near end of an unbounded search is projected from, to know the line's direction [1 / map unit].
+constexpr float kNearIdepth = 0.01f;
+/// Energy above that of any match.
+constexpr float kNoMatchEnergy = 1e10f;
+/// Energy that a pixel adds which may not be used: above that of any grey levels under the robust weight.
+constexpr float kInvalidEnergy = 1e4f;
+/// After more positions the quality is that of a real search, not of a remainder.
+constexpr int kManyPositions = 10;
+/// A refinement by less than this is the last one [px].
+constexpr float kSmallRefinement = 0.03f;
 
 }  // namespace
 
@@ -45,7 +60,7 @@ struct EpipolarTracer::Segment {
 
 struct EpipolarTracer::Match {
   float x = 0, y = 0;
-  float energy = 1e10f;
+  float energy = kNoMatchEnergy;
 };
 
 bool make_immature_point(const Image<Texel>& image, float u, float v, ImmaturePoint& point) {
@@ -59,7 +74,7 @@ bool make_immature_point(const Image<Texel>& image, float u, float v, ImmaturePo
     if (x < 1 || y < 1 || x >= static_cast<float>(image.width()) - 2 || y >= static_cast<float>(image.height()) - 2)
       return false;
     const Texel t = quadratic(image.view(), x, y);
-    if (!(t.valid > 0.999f) || !std::isfinite(t.intensity)) return false;
+    if (!(t.valid > kAllValid) || !std::isfinite(t.intensity)) return false;
     const float gradient2 = t.dx * t.dx + t.dy * t.dy;
     constexpr float c2 = kGradientWeight * kGradientWeight;
     point.patch.intensity[i] = t.intensity;
@@ -90,7 +105,7 @@ bool EpipolarTracer::find_segment(const ImmaturePoint& point, const PatternWarp&
   if (!project(point.idepth_min, segment.far_x, segment.far_y) || !inside(segment.far_x, segment.far_y)) return false;
   float near_x = 0, near_y = 0;
   const bool bounded = std::isfinite(point.idepth_max);
-  if (!project(bounded ? point.idepth_max : 0.01f, near_x, near_y)) return false;
+  if (!project(bounded ? point.idepth_max : kNearIdepth, near_x, near_y)) return false;
   segment.dx = near_x - segment.far_x;
   segment.dy = near_y - segment.far_y;
   segment.length = std::hypot(segment.dx, segment.dy);
@@ -109,7 +124,7 @@ bool EpipolarTracer::find_segment(const ImmaturePoint& point, const PatternWarp&
                       segment.dy * (point.gxy * segment.dx + point.gyy * segment.dy);
   const float across = segment.dy * (point.gxx * segment.dy - point.gxy * segment.dx) -
                        segment.dx * (point.gxy * segment.dy - point.gyy * segment.dx);
-  segment.error = std::min(kLargestError, 0.2f + 0.2f * (along + across) / std::max(along, 1e-6f));
+  segment.error = std::min(kLargestError, kLineError + kImageError * (along + across) / std::max(along, 1e-6f));
   status = TraceStatus::kBadlyConditioned;
   return !(bounded && 2 * segment.error > segment.length);
 }
@@ -124,12 +139,12 @@ EpipolarTracer::Match EpipolarTracer::search(ImmaturePoint& point, const Segment
   std::array<float, kMostPositions> energies;
   search_energies(pattern, count, energies.data());
   const int best = static_cast<int>(std::min_element(energies.begin(), energies.begin() + count) - energies.begin());
-  float second = 1e10f;
+  float second = kNoMatchEnergy;
   for (int i = 0; i < count; ++i) {
     if (std::abs(i - best) > static_cast<int>(kAmbiguityRadius)) second = std::min(second, energies[i]);
   }
   const float quality = second / std::max(energies[best], 1e-3f);
-  if (quality < point.quality || count > 10) point.quality = quality;
+  if (quality < point.quality || count > kManyPositions) point.quality = quality;
   const auto step = static_cast<float>(best);
   return {segment.far_x + step * segment.dx, segment.far_y + step * segment.dy, energies[best]};
 }
@@ -146,8 +161,8 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
     for (int i = 0; i < kPatternSize; ++i) {
       const float x = current.x + pattern.offset_x[i], y = current.y + pattern.offset_y[i];
       const Texel t = quadratic(image, x, y);
-      if (!(t.valid > 0.999f)) {
-        energy += 1e4f;
+      if (!(t.valid > kAllValid)) {
+        energy += kInvalidEnergy;
         continue;
       }
       const float r = t.intensity - pattern.intensity[i];
@@ -169,7 +184,7 @@ void EpipolarTracer::refine(const PatternWarp& warp, const Segment& segment, Mat
       current.x = match.x + last_step * segment.dx;
       current.y = match.y + last_step * segment.dy;
     }
-    if (std::fabs(last_step) < 0.03f) break;
+    if (std::fabs(last_step) < kSmallRefinement) break;
   }
 }
 

@@ -10,9 +10,9 @@
 namespace ldso {
 namespace {
 
-/// The spacing goes down to nothing, where points are rare [px],
+/// Least spacing of active points: none, where points are rare [px].
 constexpr float kLeastSpacing = 0.0f;
-/// and up to this, beyond which an image would hold too few of them [px].
+/// Largest spacing of active points: beyond it an image would hold too few of them [px].
 constexpr float kMostSpacing = 12.0f;
 /// Largest block scale of the selection: coarse points need that much more room.
 constexpr float kMostScale = 4.0f;

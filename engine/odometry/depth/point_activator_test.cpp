@@ -10,24 +10,15 @@
 
 #include "odometry/depth/epipolar_tracer.h"
 #include "odometry/residual/photometric_residual.h"
-#include "odometry/test_synthetic_scene.h"
+#include "odometry/test_rendered_path.h"
 
 namespace ldso {
 namespace {
 
 constexpr int kFrames = 4;
 
-class PointActivatorTest : public testing::Test {
+class PointActivatorTest : public test::RenderedPathTest<kFrames> {
  protected:
-  static void SetUpTestSuite() {
-    scene_ = std::make_unique<test::SyntheticScene>();
-    frames_ = test::render_path(*scene_, kFrames);
-  }
-  static void TearDownTestSuite() {
-    frames_.clear();
-    scene_.reset();
-  }
-
   /// Keyframes at the truth; all but the newest have immature points that the later ones have traced.
   static Window traced_window(int spacing) {
     Window window = test::empty_window(scene_->camera());
@@ -57,15 +48,10 @@ class PointActivatorTest : public testing::Test {
     return count;
   }
 
-  static std::unique_ptr<test::SyntheticScene> scene_;
-  static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
   ThreadPool pool_{1};
   TracingSettings tracing_;
   WindowSettings settings_;
 };
-
-std::unique_ptr<test::SyntheticScene> PointActivatorTest::scene_;
-std::vector<std::shared_ptr<const PreparedFrame>> PointActivatorTest::frames_;
 
 TEST_F(PointActivatorTest, ActivePointsHaveTheTrueInverseDepth) {
   Window window = traced_window(9);

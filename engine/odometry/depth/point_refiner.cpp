@@ -9,7 +9,7 @@ namespace {
 
 /// Steps of Levenberg-Marquardt: the interval of tracing is narrow.
 constexpr int kIterations = 3;
-/// Its first damping.
+/// Damping of Levenberg-Marquardt at first.
 constexpr float kFirstLambda = 0.1f;
 /// A step below this share of the inverse depth changes no pixel.
 constexpr float kSmallStep = 1e-4f;

@@ -18,9 +18,6 @@ namespace ldso {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Residual that stands in for a pixel that may not be used [grey levels].
-constexpr float kInvalidResidual = 30.0f;
-
 void search_energies_simd(const PatternSearch& search, int count, float* energies) {
   const hn::CappedTag<float, kPatternSize> d;
   const auto huber = hn::Set(d, kHuberThreshold);
@@ -39,7 +36,7 @@ void search_energies_simd(const PatternSearch& search, int count, float* energie
     for (size_t i = 0; i < kPatternSize; i += hn::Lanes(d)) {
       const auto intensity = hn::Load(d, texels.intensity + i), valid = hn::Load(d, texels.valid + i);
       const auto difference = hn::Abs(hn::Sub(intensity, hn::LoadU(d, search.intensity + i)));
-      const auto usable = hn::Gt(valid, hn::Set(d, 0.999f));
+      const auto usable = hn::Gt(valid, hn::Set(d, kAllValid));
       const auto r = hn::IfThenElse(usable, difference, hn::Set(d, kInvalidResidual));
       // Huber energy: with m = min(r, huber) it is m * (2 r - m).
       const auto m = hn::Min(r, huber);

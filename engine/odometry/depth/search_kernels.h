@@ -7,6 +7,9 @@
 
 namespace ldso {
 
+/// Residual that stands in for a pixel that may not be used [grey levels].
+inline constexpr float kInvalidResidual = 30.0f;
+
 struct PatternSearch {
   const Texel* texels = nullptr;  ///< Image that is searched; all positions keep the pattern inside it.
   int width = 0;

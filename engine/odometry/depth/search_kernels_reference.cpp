@@ -15,7 +15,7 @@ void search_energies_reference(const PatternSearch& search, int count, float* en
       const float x = search.x + static_cast<float>(n) * search.step_x + search.offset_x[i];
       const float y = search.y + static_cast<float>(n) * search.step_y + search.offset_y[i];
       const Texel t = quadratic(texels, x, y);
-      const float r = t.valid > 0.999f ? std::fabs(t.intensity - search.intensity[i]) : 30.0f;
+      const float r = t.valid > kAllValid ? std::fabs(t.intensity - search.intensity[i]) : kInvalidResidual;
       energies[n] += huber_energy(r);
     }
   }

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "ldso/error.h"
 #include "odometry/init/rotation_alignment.h"
 #include "odometry/selection/point_selector.h"
+#include "util/format_text.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -25,20 +25,16 @@ constexpr double kInlier = 3.0;
 constexpr std::size_t kMinMatches = 40;
 /// Least depth in the current frame over that in the first.
 constexpr double kMinDepth = 0.05;
-// A brightness that was that wrong has biased the displacements: they are measured again.
+/// A predicted brightness factor that is off by more has biased the displacements: they are measured again.
 constexpr double kBrightnessFactorError = 0.03;
-constexpr double kBrightnessOffsetError = 1.0;  // [grey levels]
-constexpr double kStill = 1.0;                  // Median displacement below which nothing is moving at all [px].
+/// The same for the predicted brightness offset [grey levels].
+constexpr double kBrightnessOffsetError = 1.0;
+/// Median displacement below which nothing is moving at all [px].
+constexpr double kStill = 1.0;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   return upper_median(values);
-}
-
-std::string text(const char* format, double a, double b = 0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof(buffer), format, a, b);
-  return buffer;
 }
 
 std::optional<Eigen::Vector2d> project_in_front(const PinholeIntrinsics& camera, const Eigen::Vector3d& q) {
@@ -152,7 +148,7 @@ Initializer::Status Initializer::judge(const std::shared_ptr<const PreparedFrame
       std::count_if(matches.begin(), matches.end(), [](const PatchMatch& m) { return m.found; }));
   const double share = static_cast<double>(found) / static_cast<double>(tracks_.size());
   if (found < kMinMatches || share < settings_.min_tracked) {
-    return restart(frame, text("only %.0f %% of the first frame's points are still seen", 100 * share));
+    return restart(frame, format_text("only %.0f %% of the first frame's points are still seen", 100 * share));
   }
   tracked_ = share;
   remember(matches);
@@ -165,7 +161,7 @@ Initializer::Status Initializer::judge(const std::shared_ptr<const PreparedFrame
     return Status::kReady;
   }
   if (frames_ >= settings_.max_frames && motion.median_flow > kStill) {
-    return restart(frame, text("no start within %.0f frames; ", frames_) + complaint);
+    return restart(frame, format_text("no start within %d frames; ", frames_) + complaint);
   }
   return wait(std::move(complaint));
 }
@@ -302,29 +298,32 @@ double Initializer::wanted_parallax() const {
 }
 
 std::string Initializer::too_little_parallax(double parallax) const {
-  return text("waiting for parallax: camera has not moved enough (median parallax %.1f px, wanted %.1f px)", parallax,
-              wanted_parallax());
+  return format_text("waiting for parallax: camera has not moved enough (median parallax %.1f px, wanted %.1f px)",
+                     parallax, wanted_parallax());
 }
 
 std::string Initializer::objection(const Motion& motion) const {
   if (!motion.fitted) {
-    return text("waiting for parallax: camera has not moved enough (median displacement %.1f px)", motion.median_flow);
+    return format_text("waiting for parallax: camera has not moved enough (median displacement %.1f px)",
+                       motion.median_flow);
   }
   if (motion.inliers < settings_.min_inliers) {
-    return text("waiting: no camera motion explains the images (%.0f %% of the points agree)", 100 * motion.inliers);
+    return format_text("waiting: no camera motion explains the images (%.0f %% of the points agree)",
+                       100 * motion.inliers);
   }
   const double ratio = motion.motion.cost / std::max(1e-9, motion.rotation.cost);
   if (ratio > settings_.max_cost_ratio) {
-    return text("waiting for parallax: camera has only turned (median displacement %.1f px)", motion.median_flow);
+    return format_text("waiting for parallax: camera has only turned (median displacement %.1f px)",
+                       motion.median_flow);
   }
   if (motion.median_parallax < wanted_parallax()) return too_little_parallax(motion.median_parallax);
   const double stddev = motion.motion.direction_stddev * 180 / M_PI;
   if (stddev > settings_.max_direction_stddev) {
-    return text("waiting: direction of motion is uncertain by %.1f degrees", stddev);
+    return format_text("waiting: direction of motion is uncertain by %.1f degrees", stddev);
   }
   if (motion.motion.runner_up_ratio < settings_.min_runner_up && frames_ < settings_.max_ambiguous) {
-    return text("waiting: two motions explain the images about equally well (misfits 1 : %.2f)",
-                motion.motion.runner_up_ratio);
+    return format_text("waiting: two motions explain the images about equally well (misfits 1 : %.2f)",
+                       motion.motion.runner_up_ratio);
   }
   return {};
 }
@@ -367,7 +366,7 @@ std::string Initializer::publish(const PreparedFrame& frame, const JointFit& fit
   }
   const double share = static_cast<double>(good) / static_cast<double>(tracks_.size());
   if (share < settings_.min_good) {
-    return text("waiting: inverse depths of only %.0f %% of the points are determined", 100 * share);
+    return format_text("waiting: inverse depths of only %.0f %% of the points are determined", 100 * share);
   }
   const double parallax_px = median(std::move(parallax));
   if (parallax_px < wanted_parallax()) return too_little_parallax(parallax_px);

@@ -9,19 +9,11 @@
 
 #include "image/frame.h"
 #include "ldso/calibration.h"
-#include "ldso/se3.h"
+#include "odometry/init/joint_level.h"
 #include "odometry/state/brightness.h"
 #include "util/thread_pool.h"
 
 namespace ldso {
-
-/// I_second = (t_second / t_first) e^a I_first + b, with t the exposures.
-struct JointState {
-  SE3d T_second_first;
-  double a = 0;
-  double b = 0;
-  std::vector<double> idepth;
-};
 
 struct JointPointQuality {
   bool visible = false;
@@ -52,6 +44,7 @@ class JointAlignment {
   std::vector<double> neighbour_medians(const std::vector<double>& values) const;
 
  private:
+  /// Of a point: enough that a median of inverse depths says on which side of a step in depth the point lies.
   static constexpr int kNeighbours = 10;
 
   const PreparedFrame& first_;

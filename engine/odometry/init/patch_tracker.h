@@ -44,6 +44,7 @@ class PatchTracker {
                                 const BrightnessTransfer& brightness, ThreadPool& pool) const;
 
  private:
+  /// Of a patch [px]: 7 x 7 pixels hold enough texture on coarse levels, and little of what lies at another depth.
   static constexpr int kRadius = 3;
   static constexpr int kSide = 2 * kRadius + 1;
   static constexpr int kPixels = kSide * kSide;

@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 
-#include "odometry/init/rotation_alignment.h"
 #include "odometry/init/test_scene.h"
 
 namespace ldso {
@@ -80,15 +79,6 @@ TEST_F(PatchTrackerTest, PatchesOutsideAreNotFound) {
   predictions[0].starts = {pixels[0]};
   predictions[1].starts = {{-50, 20}};
   for (const PatchMatch& match : tracker.track(*frame, predictions, {}, pool_)) EXPECT_FALSE(match.found);
-}
-
-TEST_F(PatchTrackerTest, RotationOfWholeImagesIsFoundFarAway) {
-  for (const double yaw : {0.0, 0.02, -0.1, 0.2}) {
-    const SO3d R = SO3d::exp({0.02, yaw, 0.03});
-    const SO3d R_second_first =
-        align_rotation(*scene_.frame(0, SE3d()), *scene_.frame(1, SE3d(R, Eigen::Vector3d::Zero())), kCamera).R_to_from;
-    EXPECT_LT((R_second_first * R).log().norm(), 0.002) << yaw;
-  }
 }
 
 }  // namespace

@@ -21,12 +21,29 @@ constexpr std::size_t kMostPixels = 8000;
 constexpr double kMinOverlap = 0.4;
 /// Distance between the rotations that are tried first [px of the coarsest level].
 constexpr double kSearchStep = 2.0;
-/// So many of them to the left and to the right,
+/// So many rotations are tried to the left, and as many to the right: images are wider than high, and cameras mostly
+/// turn about what is upright.
 constexpr int kSearchStepsX = 4;
-/// and up and down.
+/// So many rotations are tried upward, and as many downward.
 constexpr int kSearchStepsY = 2;
-/// Of those so many of the best are refined.
+/// So many of the best rotations that were tried are refined.
 constexpr std::size_t kFinalists = 3;
+/// Least z of a ray (x, y, 1) once it is turned: below it the other camera does not see it.
+constexpr float kLeastZ = 0.1f;
+/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal.
+constexpr double kFirstLambda = 1e-3;
+/// Damping never falls below this.
+constexpr double kLeastLambda = 1e-6;
+/// With more damping steps move nothing: the level is done.
+constexpr double kMostLambda = 1e3;
+/// Factor on the damping after a step that lowers the energy.
+constexpr double kLambdaDown = 0.2;
+/// Factor on the damping after a step that does not.
+constexpr double kLambdaUp = 10;
+/// A smaller turn moves no pixel [rad].
+constexpr double kSmallTurn = 1e-5;
+/// Added to the diagonal, far below any information: what nothing determines stays as it is.
+constexpr double kDiagonalFloor = 1e-6;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
@@ -100,7 +117,7 @@ class Level {
     const float cy = static_cast<float>(camera_.cy);
     const Eigen::Vector3f q =
         R * Eigen::Vector3f((static_cast<float>(x) - cx) / fx, (static_cast<float>(y) - cy) / fy, 1);
-    if (q.z() < 0.1f) return;
+    if (q.z() < kLeastZ) return;
     const float X = q.x() / q.z();
     const float Y = q.y() / q.z();
     const float u = fx * X + cx;
@@ -136,26 +153,26 @@ class Level {
 double refine(const Level& level, State& state) {
   NormalEquations now = level.linearize(state);
   double energy = now.mean_energy(level.pixels());
-  double lambda = 1e-3;
+  double lambda = kFirstLambda;
   for (int i = 0; i < kIterations && std::isfinite(energy); ++i) {
     Matrix5 H = now.H;
     H.diagonal() *= 1 + lambda;
-    H.diagonal().array() += 1e-6;
+    H.diagonal().array() += kDiagonalFloor;
     const Vector5 step = -H.ldlt().solve(now.b);
     if (!step.allFinite()) break;
     const State trial{SO3d::exp(step.head<3>()) * state.rotation, state.gain + step[3], state.offset + step[4]};
     const NormalEquations next = level.linearize(trial);
     const double next_energy = next.mean_energy(level.pixels());
     if (!(next_energy < energy)) {
-      lambda *= 10;
-      if (lambda > 1e3) break;
+      lambda *= kLambdaUp;
+      if (lambda > kMostLambda) break;
       continue;
     }
     state = trial;
     now = next;
     energy = next_energy;
-    lambda = std::max(1e-6, lambda * 0.2);
-    if (step.head<3>().norm() < 1e-5) break;
+    lambda = std::max(kLeastLambda, lambda * kLambdaDown);
+    if (step.head<3>().norm() < kSmallTurn) break;
   }
   return energy;
 }
@@ -163,7 +180,13 @@ double refine(const Level& level, State& state) {
 struct Trial {
   State state;
   double energy;
+  int distance;  ///< Squared, in steps from the centre.
 };
+
+/// Where nothing tells rotations from each other (a covered lens), the nearest one to the centre is the best.
+bool is_better(const Trial& a, const Trial& b) {
+  return a.energy < b.energy || (a.energy == b.energy && a.distance < b.distance);
+}
 
 /// Fast turns leave the basin of even the coarsest image: turns by whole steps in both directions around
 /// `centre` are compared there, and the best few refined.
@@ -173,15 +196,13 @@ State search(const Level& level, const SO3d& centre) {
   for (int y = -kSearchStepsY; y <= kSearchStepsY; ++y) {
     for (int x = -kSearchStepsX; x <= kSearchStepsX; ++x) {
       const State state{SO3d::exp({y * step, x * step, 0}) * centre, 1, 0};
-      trials.push_back({state, level.linearize(state, false).mean_energy(level.pixels())});
+      trials.push_back({state, level.linearize(state, false).mean_energy(level.pixels()), x * x + y * y});
     }
   }
-  std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.energy < b.energy; });
+  std::stable_sort(trials.begin(), trials.end(), is_better);
   trials.resize(std::min(trials.size(), kFinalists));
   for (Trial& trial : trials) trial.energy = refine(level, trial.state);
-  return std::min_element(trials.begin(), trials.end(),
-                          [](const Trial& a, const Trial& b) { return a.energy < b.energy; })
-      ->state;
+  return std::min_element(trials.begin(), trials.end(), is_better)->state;
 }
 
 }  // namespace

@@ -31,6 +31,24 @@ constexpr int kPolishIterations = 8;
 constexpr double kDistinctDirection = 0.2;
 /// Distinct motions that are compared in the end.
 constexpr std::size_t kFinalists = 3;
+/// Squared derivative of a match by its inverse depth below which it says nothing of that.
+constexpr double kLeastCurvature = 1e-12;
+/// One match's evidence for the sign of the depths counts up to three standard deviations squared.
+constexpr double kMostEvidence = 9.0;
+/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal.
+constexpr double kFirstLambda = 1e-2;
+/// Damping never falls below this.
+constexpr double kLeastLambda = 1e-7;
+/// With more damping steps move nothing.
+constexpr double kMostLambda = 1e5;
+/// Factor on the damping after a step that lowers the cost.
+constexpr double kLambdaDown = 0.15;
+/// Factor on the damping after a step that does not.
+constexpr double kLambdaUp = 8;
+/// A step that lowers the cost by a smaller share of it is the last one.
+constexpr double kSmallGain = 1e-6;
+/// Added to the diagonal, far below any information: what nothing determines stays as it is.
+constexpr double kDiagonalFloor = 1e-9;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -82,7 +100,7 @@ class Problem {
       // The linear solution weights with the wrong depth; one Gauss-Newton step sets that right.
       project(match, q0, t, state);
       const double curvature = state.J_idepth.squaredNorm();
-      if (curvature > 1e-12) {
+      if (curvature > kLeastCurvature) {
         const double better = state.idepth - state.J_idepth.dot(state.residual) / curvature;
         state.idepth = clamp(better, q0, t, state.depth_free);
       }
@@ -146,10 +164,10 @@ class Problem {
     J.rightCols<3>() = -J_point * SO3d::hat(state.q);
     Eigen::Matrix2d P = Eigen::Matrix2d::Identity();
     const double curvature = state.J_idepth.squaredNorm();
-    if (state.depth_free && curvature > 1e-12) P -= state.J_idepth * state.J_idepth.transpose() / curvature;
+    if (state.depth_free && curvature > kLeastCurvature) P -= state.J_idepth * state.J_idepth.transpose() / curvature;
     sums.H.noalias() += weight * J.transpose() * P * J;
     sums.b.noalias() += weight * J.transpose() * (P * state.residual);
-    const double evidence = std::min(9.0, state.idepth * state.idepth * curvature);
+    const double evidence = std::min(kMostEvidence, state.idepth * state.idepth * curvature);
     sums.forward_votes += weight * (state.idepth < 0 ? -evidence : evidence);
   }
 
@@ -192,25 +210,25 @@ SE3d moved(const SE3d& T, const Vector6& step, Depths depths) {
 
 Candidate minimize(const Problem& problem, SE3d T, Depths depths, int iterations, double* forward_votes = nullptr) {
   Linearization now = problem.linearize(T);
-  double lambda = 1e-2;
+  double lambda = kFirstLambda;
   for (int i = 0; i < iterations; ++i) {
     const Eigen::MatrixXd basis = free_motions(T, depths);
     Eigen::MatrixXd H = basis.transpose() * now.H * basis;
     H.diagonal() *= 1 + lambda;
-    H.diagonal().array() += 1e-9;
+    H.diagonal().array() += kDiagonalFloor;
     const Vector6 step = -basis * H.ldlt().solve(basis.transpose() * now.b);
     if (!step.allFinite()) break;
     const SE3d trial = moved(T, step, depths);
     const Linearization next = problem.linearize(trial);
     if (!(next.cost < now.cost)) {
-      lambda *= 8;
-      if (lambda > 1e5) break;
+      lambda *= kLambdaUp;
+      if (lambda > kMostLambda) break;
       continue;
     }
-    const bool converged = now.cost - next.cost < 1e-6 * now.cost;
+    const bool converged = now.cost - next.cost < kSmallGain * now.cost;
     T = trial;
     now = next;
-    lambda = std::max(1e-7, lambda * 0.15);
+    lambda = std::max(kLeastLambda, lambda * kLambdaDown);
     if (converged) break;
   }
   if (forward_votes != nullptr) *forward_votes = now.forward_votes;
@@ -278,7 +296,7 @@ std::vector<Candidate> search(const std::vector<TwoViewMatch>& matches, const Pi
 double direction_stddev(const Problem& problem, const SE3d& T) {
   const Eigen::MatrixXd basis = free_motions(T, Depths::kPositive);
   Eigen::Matrix<double, 5, 5> H = basis.transpose() * problem.linearize(T).H * basis;
-  H.diagonal().array() += 1e-9;
+  H.diagonal().array() += kDiagonalFloor;
   const Eigen::Matrix2d covariance = H.inverse().topLeftCorner<2, 2>();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
   return std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));

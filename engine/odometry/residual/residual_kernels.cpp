@@ -19,7 +19,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes8 = hn::CappedTag<float, kPatternSize>;
+using V = hn::Vec<Lanes8>;
 
+/// kPattern (odometry/state/residual_pattern.h), each coordinate as a vector.
 alignas(32) constexpr float kOffsetX[kPatternSize] = {0, -1, 1, -2, 0, 2, -1, 0};
 alignas(32) constexpr float kOffsetY[kPatternSize] = {-2, -1, -1, 0, 0, 0, 1, 2};
 
@@ -51,66 +53,93 @@ HWY_INLINE bool warp_pattern(const PatternJob& job, float* HWY_RESTRICT xs, floa
   return inside;
 }
 
-HWY_INLINE void sum_pattern(const PatternJob& job, const TexelBlock& texels, PatternSums& out) {
+/// Residuals of some of the pattern's pixels, their derivatives by the position in the target (gx, gy) and by the
+/// target's log brightness factor (a; that by the offset is -1), and their weights.
+struct Residuals {
+  V r, gx, gy, a;
+  V robust, weight;  ///< Huber's part of the weight, and all of it.
+  V usable;          ///< 1 or 0.
+};
+
+HWY_INLINE Residuals residuals_at(const PatternJob& job, const TexelBlock& texels, size_t i) {
   const Lanes8 d;
-  using V = hn::Vec<Lanes8>;
   const PatternWarp& w = *job.warp;
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0f);
-  const V huber = hn::Set(d, kHuberThreshold);
+  const V one = hn::Set(d, 1.0f), huber = hn::Set(d, kHuberThreshold);
   const V c2 = hn::Set(d, kGradientWeight * kGradientWeight);
-  V gxx = zero, gxy = zero, gyy = zero, gxa = zero, gya = zero, gx_sum = zero, gy_sum = zero, aa = zero, a_sum = zero,
-    w_sum = zero, rgx = zero, rgy = zero, ra = zero, r_sum = zero, energy = zero, valid_sum = zero;
-  for (size_t i = 0; i < kPatternSize; i += hn::Lanes(d)) {
-    const V intensity = hn::Load(d, texels.intensity + i), valid = hn::Load(d, texels.valid + i);
-    const V gx = hn::Load(d, texels.dx + i), gy = hn::Load(d, texels.dy + i);
-    const V host = hn::Load(d, job.patch->intensity.data() + i);
-    const V r = hn::Sub(intensity, hn::MulAdd(hn::Set(d, w.factor), host, hn::Set(d, w.offset)));
-    // Mean of the gradient weights in both images; pixels that touch an invalid one count nothing.
-    const V gradient2 = hn::MulAdd(gx, gx, hn::Mul(gy, gy));
-    const V target_weight = hn::Sqrt(hn::Div(c2, hn::Add(c2, gradient2)));
-    const V mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(target_weight, hn::Load(d, job.patch->weight.data() + i)));
-    const auto usable = hn::Gt(valid, hn::Set(d, 0.999f));
-    const V weight = hn::IfThenElseZero(usable, hn::Mul(mean, mean));
-    valid_sum = hn::Add(valid_sum, hn::IfThenElseZero(usable, one));
-    const V abs_r = hn::Abs(r);
-    const V robust = hn::Min(one, hn::Div(huber, hn::Max(abs_r, huber)));
-    const V wr = hn::Mul(weight, robust);
-    energy = hn::MulAdd(hn::Mul(wr, hn::Mul(r, r)), hn::Sub(hn::Set(d, 2.0f), robust), energy);
-    const V a = hn::Mul(hn::Set(d, -w.factor_lin), hn::Sub(host, hn::Set(d, w.host_b_lin)));
-    const V wgx = hn::Mul(wr, gx), wgy = hn::Mul(wr, gy), wa = hn::Mul(wr, a);
-    gxx = hn::MulAdd(wgx, gx, gxx);
-    gxy = hn::MulAdd(wgx, gy, gxy);
-    gyy = hn::MulAdd(wgy, gy, gyy);
-    gxa = hn::MulAdd(wgx, a, gxa);
-    gya = hn::MulAdd(wgy, a, gya);
-    gx_sum = hn::Add(gx_sum, wgx);
-    gy_sum = hn::Add(gy_sum, wgy);
-    aa = hn::MulAdd(wa, a, aa);
-    a_sum = hn::Add(a_sum, wa);
-    w_sum = hn::Add(w_sum, wr);
-    rgx = hn::MulAdd(wgx, r, rgx);
-    rgy = hn::MulAdd(wgy, r, rgy);
-    ra = hn::MulAdd(wa, r, ra);
-    r_sum = hn::MulAdd(wr, r, r_sum);
-  }
-  const auto sum = [&](V v) { return hn::GetLane(hn::SumOfLanes(d, v)); };
-  out.gxx = sum(gxx);
-  out.gxy = sum(gxy);
-  out.gyy = sum(gyy);
-  out.gxa = sum(gxa);
-  out.gya = sum(gya);
-  out.gxb = -sum(gx_sum);
-  out.gyb = -sum(gy_sum);
-  out.aa = sum(aa);
-  out.ab = -sum(a_sum);
-  out.bb = sum(w_sum);
-  out.rgx = sum(rgx);
-  out.rgy = sum(rgy);
-  out.ra = sum(ra);
-  out.rb = -sum(r_sum);
-  out.energy = sum(energy);
-  out.in_view = sum(valid_sum) >= 0.5f * kPatternSize;
+  const V host = hn::Load(d, job.patch->intensity.data() + i);
+  const V intensity = hn::Load(d, texels.intensity + i), valid = hn::Load(d, texels.valid + i);
+  Residuals out;
+  out.gx = hn::Load(d, texels.dx + i);
+  out.gy = hn::Load(d, texels.dy + i);
+  out.r = hn::Sub(intensity, hn::MulAdd(hn::Set(d, w.factor), host, hn::Set(d, w.offset)));
+  out.a = hn::Mul(hn::Set(d, -w.factor_lin), hn::Sub(host, hn::Set(d, w.host_b_lin)));
+  // Mean of the gradient weights in both images; pixels that touch an invalid one count nothing.
+  const V gradient2 = hn::MulAdd(out.gx, out.gx, hn::Mul(out.gy, out.gy));
+  const V target_weight = hn::Sqrt(hn::Div(c2, hn::Add(c2, gradient2)));
+  const V mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(target_weight, hn::Load(d, job.patch->weight.data() + i)));
+  const auto usable = hn::Gt(valid, hn::Set(d, kAllValid));
+  out.usable = hn::IfThenElseZero(usable, one);
+  out.robust = hn::Min(one, hn::Div(huber, hn::Max(hn::Abs(out.r), huber)));
+  out.weight = hn::Mul(hn::IfThenElseZero(usable, hn::Mul(mean, mean)), out.robust);
+  return out;
+}
+
+/// PatternSums lane by lane, the derivative by the offset taken as 1.
+struct LaneSums {
+  V gxx, gxy, gyy, gxa, gya, gx, gy, aa, a, weight, rgx, rgy, ra, r;
+  V energy, usable;
+};
+
+HWY_INLINE LaneSums zero_sums() {
+  const V zero = hn::Zero(Lanes8());
+  return {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+}
+
+HWY_INLINE void add(const Residuals& p, LaneSums& sums) {
+  const V wgx = hn::Mul(p.weight, p.gx), wgy = hn::Mul(p.weight, p.gy), wa = hn::Mul(p.weight, p.a);
+  sums.gxx = hn::MulAdd(wgx, p.gx, sums.gxx);
+  sums.gxy = hn::MulAdd(wgx, p.gy, sums.gxy);
+  sums.gyy = hn::MulAdd(wgy, p.gy, sums.gyy);
+  sums.gxa = hn::MulAdd(wgx, p.a, sums.gxa);
+  sums.gya = hn::MulAdd(wgy, p.a, sums.gya);
+  sums.gx = hn::Add(sums.gx, wgx);
+  sums.gy = hn::Add(sums.gy, wgy);
+  sums.aa = hn::MulAdd(wa, p.a, sums.aa);
+  sums.a = hn::Add(sums.a, wa);
+  sums.weight = hn::Add(sums.weight, p.weight);
+  sums.rgx = hn::MulAdd(wgx, p.r, sums.rgx);
+  sums.rgy = hn::MulAdd(wgy, p.r, sums.rgy);
+  sums.ra = hn::MulAdd(wa, p.r, sums.ra);
+  sums.r = hn::MulAdd(p.weight, p.r, sums.r);
+  const V two = hn::Set(Lanes8(), 2.0f);
+  sums.energy = hn::MulAdd(hn::Mul(p.weight, hn::Mul(p.r, p.r)), hn::Sub(two, p.robust), sums.energy);
+  sums.usable = hn::Add(sums.usable, p.usable);
+}
+
+HWY_INLINE void reduce(const LaneSums& sums, PatternSums& out) {
+  const auto total = [](V v) { return hn::GetLane(hn::SumOfLanes(Lanes8(), v)); };
+  out.gxx = total(sums.gxx);
+  out.gxy = total(sums.gxy);
+  out.gyy = total(sums.gyy);
+  out.gxa = total(sums.gxa);
+  out.gya = total(sums.gya);
+  out.gxb = -total(sums.gx);
+  out.gyb = -total(sums.gy);
+  out.aa = total(sums.aa);
+  out.ab = -total(sums.a);
+  out.bb = total(sums.weight);
+  out.rgx = total(sums.rgx);
+  out.rgy = total(sums.rgy);
+  out.ra = total(sums.ra);
+  out.rb = -total(sums.r);
+  out.energy = total(sums.energy);
+  out.in_view = total(sums.usable) >= 0.5f * kPatternSize;
+}
+
+HWY_INLINE void sum_pattern(const PatternJob& job, const TexelBlock& texels, PatternSums& out) {
+  LaneSums sums = zero_sums();
+  for (size_t i = 0; i < kPatternSize; i += hn::Lanes(Lanes8())) add(residuals_at(job, texels, i), sums);
+  reduce(sums, out);
 }
 
 void evaluate_patterns_simd(const PatternJob* jobs, PatternSums* sums, int count) {

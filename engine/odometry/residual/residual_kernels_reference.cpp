@@ -23,7 +23,7 @@ bool evaluate_reference(const PatternJob& job, PatternSums& s) {
         p[2] > 0 && x > 1 && y > 1 && x < static_cast<float>(w.width) - 2 && y < static_cast<float>(w.height) - 2;
     if (!inside) return false;
     const Texel t = quadratic({w.texels, w.width, w.height, w.width}, x, y);
-    if (!(t.valid > 0.999f)) continue;
+    if (!(t.valid > kAllValid)) continue;
     ++valid;
     const float host = job.patch->intensity[i];
     const float r = t.intensity - (w.factor * host + w.offset);

@@ -11,6 +11,7 @@
 namespace ldso {
 namespace {
 
+// Directions that a block may prefer, evenly over half a turn.
 constexpr int kDirections = 16;
 
 struct Direction {

@@ -2,7 +2,7 @@
 
 // One pixel a block: of the candidates of each d x d block the one with the strongest gradient along a
 // random direction, so that both directions of the image are constrained; areas without a pick are served
-// by blocks of 2d and 4d with the candidates of the coarser scales [DSO 3.2].
+// by blocks of 2d and 4d with the candidates of the coarser scales (DSO section 3.2).
 
 #include <cstdint>
 #include <vector>

@@ -11,7 +11,7 @@
 namespace ldso {
 namespace {
 
-// "Keeping the number of corners small" [LDSO paper III-B]: at most one in this many points. Over 26 sequences 5 gives
+// "Keeping the number of corners small" (LDSO III-B): at most one in this many points. Over 26 sequences 5 gives
 // 0.92 of the odometry's error at 3 (geometric mean); 8 is no better, and loops lack points.
 constexpr int kPointsPerCorner = 5;
 // Gradient pixels keep this distance from the corners [px]: nearer ones share most of the residual pattern. Wider

@@ -1,6 +1,6 @@
 #pragma once
 
-// LDSO's selection [LDSO paper III-B]: some hundreds of repeatable corners, good for loop closing as for
+// LDSO's selection (LDSO III-B): some hundreds of repeatable corners, good for loop closing as for
 // tracking, and gradient pixels away from them for the rest, so that weak texture still gets points.
 
 #include <cstdint>

@@ -9,6 +9,7 @@
 namespace ldso {
 namespace {
 
+// By how much thresholds fall from scale to scale (DSO section 3.2 lowers them, without a number).
 constexpr double kFactorPerScale = 0.75;
 
 // Strongest usable base pixel of the square that the coarse pixel (x, y) covers. The bits of a float order like an

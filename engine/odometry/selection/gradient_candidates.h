@@ -1,7 +1,7 @@
 #pragma once
 
 // Pixels whose gradient exceeds the threshold of their block, for the three scales of DSO's selection:
-// fine gradients everywhere, coarser ones with lower thresholds for weakly textured areas [DSO 3.2].
+// fine gradients everywhere, coarser ones with lower thresholds for weakly textured areas (DSO section 3.2).
 
 #include <cstdint>
 #include <vector>

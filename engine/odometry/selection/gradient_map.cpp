@@ -46,10 +46,12 @@ void mark_margin(int margin, Image<float>* map) {
   }
 }
 
-// Half a grey level a bin: finer than the noise. Steeper medians than 64 grey levels a pixel do not occur.
+// Half a grey level a bin is finer than the noise.
 constexpr float kBinsPerGreyLevel = 2;
+// Up to 64 grey levels a pixel: steeper medians do not occur.
 constexpr int kBins = 128;
-constexpr int kStep = 2;  // a quarter of the pixels is plenty for a median of 32x32
+// Every other pixel of every other row is plenty for a median of 32x32.
+constexpr int kStep = 2;
 
 class MedianHistogram {
  public:

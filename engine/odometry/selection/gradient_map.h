@@ -1,7 +1,7 @@
 #pragma once
 
 // Squared gradient of each pixel that may be selected, and the local level of texture: the block medians
-// from which the thresholds of DSO's selection come [DSO 3.2].
+// from which the thresholds of DSO's selection come (DSO section 3.2).
 
 #include "image/frame.h"
 

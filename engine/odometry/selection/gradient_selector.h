@@ -1,6 +1,6 @@
 #pragma once
 
-// DSO's selection [DSO 3.2]: gradient pixels above a local threshold, spread evenly by blocks whose side is
+// DSO's selection (DSO section 3.2): gradient pixels above a local threshold, spread evenly by blocks whose side is
 // searched so that the wanted number comes out. Unlike the original no side is carried over from the frame
 // before: the search is cheap, and the result depends on the frame alone.
 

@@ -1,7 +1,7 @@
 #pragma once
 
 // Choice of the pixels of a keyframe that become candidate points: one interface, three strategies
-// [LDSO paper III-B; DSO, PAMI 2018, 3.2].
+// (LDSO III-B; DSO section 3.2).
 
 #include <cstdint>
 #include <memory>

@@ -176,17 +176,6 @@ TEST(CornerSelector, OneInThreeIsACornerAndTheOthersKeepAway) {
   }
 }
 
-TEST(GradientSelector, SelectsNoCornersAndWeakAreasFromCoarseScales) {
-  SelectionSettings settings;
-  settings.strategy = SelectionStrategy::kGradient;
-  const auto grey = [](int x, int y) { return x < 200 ? texture(x, y, 240) : 60 + 35 * std::sin(x * 0.3); };
-  const auto pixels = make_point_selector(settings)->select(pyramid_of(grey_image(320, 240, grey)), 1, 300);
-  EXPECT_EQ(corner_count(pixels), 0);
-  int weak = 0;
-  for (const SelectedPixel& pixel : pixels) weak += pixel.x > 210 && pixel.gradient_scale > 1;
-  EXPECT_GT(weak, 5);
-}
-
 TEST(SelectGradientPixels, ServesEveryLevelOfAPyramid) {
   const ImagePyramid pyramid = pyramid_of(grey_image(640, 480, [](int x, int y) { return texture(x, y, 240); }), 5);
   for (const Image<Texel>& level : pyramid.levels) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Uniformly random pixels, for comparison [LDSO paper IV-A]. A point without gradient can neither be traced
+// Uniformly random pixels, for comparison (LDSO IV-A). A point without gradient can neither be traced
 // nor optimized, so a least gradient is asked for; nothing else steers the choice.
 
 #include <cstdint>

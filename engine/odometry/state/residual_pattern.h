@@ -7,12 +7,14 @@
 
 namespace ldso {
 
+/// Pixels of the pattern.
 inline constexpr int kPatternSize = 8;
 
 struct PatternOffset {
   int dx, dy;
 };
 
+/// Offsets from the point, in raster order.
 inline constexpr std::array<PatternOffset, kPatternSize> kPattern = {
     {{0, -2}, {-1, -1}, {1, -1}, {-2, 0}, {0, 0}, {2, 0}, {-1, 1}, {0, 2}}};
 

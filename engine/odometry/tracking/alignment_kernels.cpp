@@ -18,6 +18,7 @@ namespace ldso {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Points that are warped, sampled and summed at once.
 constexpr int kBlock = 8;
 using Block = hn::CappedTag<float, kBlock>;
 using V = hn::Vec<Block>;
@@ -113,7 +114,7 @@ HWY_INLINE void accumulate_block(const AlignmentPoints& points, int begin, int c
     const V ref = load_some(points.intensity.data() + std::min(begin + i, points.size() - 1), left);
     const V intensity = hn::Load(d, buffer.texels.intensity + i), valid = hn::Load(d, buffer.texels.valid + i);
     const V gx = hn::Load(d, buffer.texels.dx + i), gy = hn::Load(d, buffer.texels.dy + i);
-    const auto usable = hn::And(hn::Gt(hn::Load(d, buffer.in_view + i), zero), hn::Gt(valid, hn::Set(d, 0.999f)));
+    const auto usable = hn::And(hn::Gt(hn::Load(d, buffer.in_view + i), zero), hn::Gt(valid, hn::Set(d, kAllValid)));
     const V r = hn::Sub(intensity, hn::MulAdd(hn::Set(d, w.factor), ref, hn::Set(d, w.offset)));
     const V abs_r = hn::Abs(r);
     const auto below = hn::And(usable, hn::Le(abs_r, cutoff));

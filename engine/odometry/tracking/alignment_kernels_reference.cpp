@@ -32,7 +32,7 @@ void add_point_reference(const AlignmentPoints& points, int i, const AlignmentWa
       p[2] > 1e-4f && u > 1 && v > 1 && u < static_cast<float>(w.width) - 2 && v < static_cast<float>(w.height) - 2;
   if (!inside) return;
   const Texel t = quadratic({w.texels, w.width, w.height, w.width}, u, v);
-  if (!(t.valid > 0.999f)) return;
+  if (!(t.valid > kAllValid)) return;
   sums.count += 1;
   const float r = t.intensity - (w.factor * points.intensity[i] + w.offset);
   if (std::fabs(r) > w.cutoff) {

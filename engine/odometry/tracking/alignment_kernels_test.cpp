@@ -15,11 +15,8 @@
 namespace ldso {
 namespace {
 
+using test::random_float;
 using test::uniform;
-
-float random_float(std::mt19937& random, double low, double high) {
-  return static_cast<float>(uniform(random, low, high));
-}
 
 Image<Texel> random_texels(int width, int height, double invalid, std::mt19937& random) {
   Image<Texel> image(width, height);

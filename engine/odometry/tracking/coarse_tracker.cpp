@@ -16,17 +16,27 @@ namespace {
 constexpr int kChunkSize = 1024;
 /// Steps on each level, finest first: coarse ones are cheap and have the longest way to go.
 constexpr std::array<int, 6> kMaxIterations = {10, 20, 50, 50, 50, 50};
-/// Of Levenberg-Marquardt.
+/// Damping of Levenberg-Marquardt at first.
 constexpr double kFirstLambda = 0.01;
-/// Steps shorter than this change no pixel.
+/// Factor on the damping after a step that lowers the energy.
+constexpr double kLambdaDown = 0.5;
+/// Factor on the damping after a step that does not.
+constexpr double kLambdaUp = 4;
+/// Damping after such a step at least.
+constexpr double kLeastLambdaUp = 1e-3;
+/// Steps shorter than this change no pixel [rad], with brightness in the proportions below.
 constexpr double kSmallStep = 1e-4;
+/// A log brightness factor of 1 counts as such a turn [rad].
+constexpr double kTurnPerLogFactor = 0.1;
+/// An offset of a grey level counts as such a turn [rad].
+constexpr double kTurnPerGreyLevel = 1e-3;
 /// While more residuals than this saturate, the cutoff is doubled.
 constexpr double kMostSaturated = 0.6;
 /// The cutoff is doubled up to so many times itself.
 constexpr double kMostCutoffFactor = 50;
 /// A factor of brightness beyond e^1.2, after that of the exposures, is no change of a camera's brightness.
 constexpr double kLargestLogBrightness = 1.2;
-/// Nor is an offset beyond this [grey levels].
+/// An offset of brightness beyond this is no change of a camera's brightness [grey levels].
 constexpr double kLargestOffset = 200;
 /// Fewer points in view determine none of the eight parameters.
 constexpr int kLeastPoints = 10;
@@ -167,12 +177,12 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
     if (next.mean() < system.mean()) {
       estimate = tried;
       system = next;
-      lambda *= 0.5;
+      lambda *= kLambdaDown;
     } else {
-      lambda = std::max(lambda * 4, 1e-3);
+      lambda = std::max(lambda * kLambdaUp, kLeastLambdaUp);
     }
     const double scaled_step = map_.mean_idepth * step.head<3>().norm() + step.segment<3>(3).norm() +
-                               0.1 * std::abs(step[6]) + 1e-3 * std::abs(step[7]);
+                               kTurnPerLogFactor * std::abs(step[6]) + kTurnPerGreyLevel * std::abs(step[7]);
     if (scaled_step < kSmallStep) break;
   }
   return system;
@@ -218,6 +228,7 @@ FrameMotion CoarseTracker::motion(const PreparedFrame& frame, const AlignmentRes
   const Eigen::Vector3d t = result.T_new_ref.translation();
   double translation = 0, full = 0;
   int count = 0;
+  // Every so many points are looked at: means over hundreds suffice.
   constexpr int kStride = 16;
   for (int i = 0; i < points.size(); i += kStride) {
     const Eigen::Vector3d ray((points.u[i] - camera_.cx) / camera_.fx, (points.v[i] - camera_.cy) / camera_.fy, 1.0);

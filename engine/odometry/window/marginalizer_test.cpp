@@ -6,23 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "odometry/test_synthetic_scene.h"
+#include "odometry/test_rendered_path.h"
 #include "odometry/window/window_optimizer.h"
 
 namespace ldso {
 namespace {
 
-class MarginalizerTest : public testing::Test {
+class MarginalizerTest : public test::RenderedPathTest<4> {
  protected:
-  static void SetUpTestSuite() {
-    scene_ = std::make_unique<test::SyntheticScene>();
-    frames_ = test::render_path(*scene_, 4);
-  }
-  static void TearDownTestSuite() {
-    frames_.clear();
-    scene_.reset();
-  }
-
   MarginalizerTest() : window_(test::true_window(*scene_, frames_, 20)) {
     for (auto& keyframe : window_.keyframes) {
       for (ActivePoint& point : keyframe->points) point.good_residuals = 4;
@@ -34,15 +25,10 @@ class MarginalizerTest : public testing::Test {
     NormalEquationsBuilder(pool_).build(window_, FramePairs(window_), chunks, 0);
   }
 
-  static std::unique_ptr<test::SyntheticScene> scene_;
-  static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
   WindowSettings settings_;
   ThreadPool pool_{1};
   Window window_;
 };
-
-std::unique_ptr<test::SyntheticScene> MarginalizerTest::scene_;
-std::vector<std::shared_ptr<const PreparedFrame>> MarginalizerTest::frames_;
 
 TEST_F(MarginalizerTest, NothingLeavesWithoutAReason) {
   std::size_t before = 0, after = 0;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "odometry/test_synthetic_scene.h"
+#include "odometry/test_rendered_path.h"
 
 namespace ldso {
 namespace {
@@ -64,17 +64,8 @@ struct DenseSystem {
   }
 };
 
-class NormalEquationsTest : public testing::Test {
+class NormalEquationsTest : public test::RenderedPathTest<3> {
  protected:
-  static void SetUpTestSuite() {
-    scene_ = std::make_unique<test::SyntheticScene>();
-    frames_ = test::render_path(*scene_, 3);
-  }
-  static void TearDownTestSuite() {
-    frames_.clear();
-    scene_.reset();
-  }
-
   /// Three keyframes with points, a bit away from the truth: residuals below the Huber threshold.
   static Window make_window(int spacing) {
     Window window = test::true_window(*scene_, frames_, spacing);
@@ -82,13 +73,8 @@ class NormalEquationsTest : public testing::Test {
     return window;
   }
 
-  static std::unique_ptr<test::SyntheticScene> scene_;
-  static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
   ThreadPool pool_{1};
 };
-
-std::unique_ptr<test::SyntheticScene> NormalEquationsTest::scene_;
-std::vector<std::shared_ptr<const PreparedFrame>> NormalEquationsTest::frames_;
 
 /// b = J^T W r is half the gradient of the energy, for each variable.
 TEST_F(NormalEquationsTest, GradientMatchesDifferencesOfTheEnergy) {

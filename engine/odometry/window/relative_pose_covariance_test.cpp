@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "odometry/test_synthetic_scene.h"
+#include "odometry/test_rendered_path.h"
 #include "odometry/window/finished_keyframe.h"
 #include "odometry/window/window_optimizer.h"
 
@@ -181,20 +181,12 @@ TEST(RelativePoseCovarianceTest, WithoutInformationItIsLargeButFinite) {
   EXPECT_LE(covariance.log_scale_variance(), 0.1 * 0.1 + 1e-12);
 }
 
+/// Keyframes of the tests on images.
+constexpr int kFrames = 5;
+
 /// The same on images.
-class RelativePoseCovarianceOfImages : public testing::Test {
+class RelativePoseCovarianceOfImages : public test::RenderedPathTest<kFrames> {
  protected:
-  static constexpr int kFrames = 5;
-
-  static void SetUpTestSuite() {
-    scene_ = std::make_unique<test::SyntheticScene>();
-    frames_ = test::render_path(*scene_, kFrames);
-  }
-  static void TearDownTestSuite() {
-    frames_.clear();
-    scene_.reset();
-  }
-
   /// A window whose world is moved by `T_new_old` and then larger by `scale`.
   Window optimized(int spacing, const SE3d& T_new_old = SE3d(), double scale = 1) {
     Window window = test::true_window(*scene_, frames_, spacing);
@@ -213,13 +205,8 @@ class RelativePoseCovarianceOfImages : public testing::Test {
     return window;
   }
 
-  static std::unique_ptr<test::SyntheticScene> scene_;
-  static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
   ThreadPool pool_{1};
 };
-
-std::unique_ptr<test::SyntheticScene> RelativePoseCovarianceOfImages::scene_;
-std::vector<std::shared_ptr<const PreparedFrame>> RelativePoseCovarianceOfImages::frames_;
 
 TEST_F(RelativePoseCovarianceOfImages, IsACovariance) {
   const Window window = optimized(20);

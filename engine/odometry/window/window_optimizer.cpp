@@ -14,22 +14,25 @@ namespace {
 /// 0.04 to 0.24 m over seven first frames, now it is 0.05 to 0.06 m); with 1e-3 they follow noise where the camera
 /// drives straight on (a street's ATE doubles).
 constexpr double kFirstLambda = 1e-2;
-/// It falls no further.
+/// Damping never falls below this.
 constexpr double kLeastLambda = 1e-5;
-/// A step that is accepted divides it by four, one that is not multiplies it by a hundred.
+/// Factor on the damping after a step that is accepted.
 constexpr double kLambdaDown = 0.25;
+/// Factor on the damping after a step that is not: the next one has to succeed, iterations are few.
 constexpr double kLambdaUp = 100;
-/// A step is small if the root mean square over the keyframes of all three is: of the brightness a,
+/// Root mean square over the keyframes below which the change of the brightness a is small. The step is if those of
+/// rotation and translation are, too.
 constexpr double kSmallBrightness = 6e-4;
-/// of the rotation [rad],
+/// The same of a small rotation [rad].
 constexpr double kSmallRotation = 6e-5;
-/// and of the translation, of the mean depth.
+/// The same of a small translation, in proportion to the mean depth.
 constexpr double kSmallTranslation = 6e-5;
-/// The threshold of a keyframe's outliers lies halfway between a fixed one of the pattern's energy's root [grey levels]
+/// Root of a pattern's energy beyond which a residual would be an outlier if all keyframes had the same threshold
+/// [grey levels]. A keyframe's own lies halfway between this and what its residuals say.
 constexpr float kFixedOutlierRoot = 26.0f;
-/// and that of the energy which this share of its residuals stay below,
+/// What a keyframe's residuals say: the energy that this share of them stays below.
 constexpr double kOutlierQuantile = 0.7;
-/// times this.
+/// The threshold exceeds the mean of both by this factor.
 constexpr float kOutlierSlack = 1.5f;
 /// From this iteration on the step may not change the scale (DSO section 2.3).
 constexpr int kFirstFixedScaleIteration = 2;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "odometry/test_synthetic_scene.h"
+#include "odometry/test_rendered_path.h"
 
 namespace ldso {
 namespace {
@@ -48,17 +48,8 @@ Errors errors_of(const Window& window, const test::SyntheticScene& scene) {
   return errors;
 }
 
-class WindowOptimizerTest : public testing::Test {
+class WindowOptimizerTest : public test::RenderedPathTest<kFrames> {
  protected:
-  static void SetUpTestSuite() {
-    scene_ = std::make_unique<test::SyntheticScene>();
-    frames_ = test::render_path(*scene_, kFrames);
-  }
-  static void TearDownTestSuite() {
-    frames_.clear();
-    scene_.reset();
-  }
-
   static Window disturbed_window(int spacing = 15) {
     Window window = test::true_window(*scene_, frames_, spacing);
     window.camera_prior.setConstant(2e6);
@@ -66,13 +57,8 @@ class WindowOptimizerTest : public testing::Test {
     return window;
   }
 
-  static std::unique_ptr<test::SyntheticScene> scene_;
-  static std::vector<std::shared_ptr<const PreparedFrame>> frames_;
   ThreadPool pool_{1};
 };
-
-std::unique_ptr<test::SyntheticScene> WindowOptimizerTest::scene_;
-std::vector<std::shared_ptr<const PreparedFrame>> WindowOptimizerTest::frames_;
 
 void expect_truth(const Window& window, const test::SyntheticScene& scene) {
   const Errors errors = errors_of(window, scene);
