@@ -1,31 +1,44 @@
 #pragma once
 
-// Looks at the first keyframes of a run for signs that its calibration is wrong.
+// Looks at the first frames of a pass over a sequence for signs that its calibration is wrong.
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "slam/pipeline.h"
 #include "slam/self_calibration.h"
+#include "slam/window_fit.h"
 
 namespace ldso {
+
+/// What the watched frames of a pass say.
+struct CalibrationFindings {
+  double deviations = 0;        ///< By so many standard deviations they contradict its calibration; 0: not by much.
+  Calibration better;           ///< What they speak for instead.
+  std::vector<WindowFit> fits;  ///< How well they are explained as it is.
+};
 
 class CalibrationWatch {
  public:
   CalibrationWatch(const Calibration& calibration, const SelfCalibrationSettings& settings, const Pipeline& pipeline);
 
-  /// To be called after each frame; `done`: frames so far. True if the residuals contradict the calibration: there is a
-  /// better one.
-  bool is_wrong(const FrameRecord& frame, int done, Pipeline& pipeline);
+  /// To be called after each frame. A map that has just begun says nothing, nor does one that has lost its camera.
+  void add(const FrameRecord& frame, Pipeline& pipeline);
 
-  Calibration better() const { return estimate_.better(); }
+  /// Frames that are looked at have all come.
+  bool is_over() const { return frames_ >= settings_.frames; }
+
+  CalibrationFindings findings() const { return {estimate_.deviations(), estimate_.better(), fits_}; }
 
  private:
-  int frames_;
+  SelfCalibrationSettings settings_;
   SelfCalibration estimate_;
+  std::vector<WindowFit> fits_;
+  int frames_ = 0;
+  int keyframes_ = 0;  ///< Since the map began or the camera was lost.
 };
 
-/// "the images contradict the calibration: focal lengths ... instead of ..."
+/// "focal lengths ... instead of ...", and what else differs.
 std::string describe_change(const CameraCalibration& from, const CameraCalibration& to);
 
 }  // namespace ldso

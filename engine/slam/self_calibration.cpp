@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "geometry/camera_model.h"
 
@@ -12,30 +13,41 @@ namespace {
 constexpr int kGridSteps = 8;
 /// A change of the focal lengths by a larger share improves no calibration: something else is wrong.
 constexpr double kLargestFocalChange = 0.2;
-/// Nor does a larger change of the first distortion coefficient.
+/// A larger change of the first distortion coefficient improves no calibration either.
 constexpr double kLargestRadialChange = 0.5;
 /// No camera reads an image for longer [ms].
 constexpr double kLongestReadoutMs = 100;
 
 bool is_plausible(const CameraCalibration& from, const LensEstimate& to) {
   return to.change.allFinite() && std::abs(to.change[0]) < kLargestFocalChange * from.fx &&
-         std::abs(to.change[1]) < kLargestFocalChange * from.fy && std::abs(to.change[2]) < kLargestRadialChange &&
+         std::abs(to.change[1]) < kLargestFocalChange * from.fy && std::abs(to.change[4]) < kLargestRadialChange &&
          std::abs(to.camera.readout_ms) < kLongestReadoutMs;
+}
+
+/// From the pixels of the first lens to those of the second, on a grid of the image.
+std::vector<Eigen::Vector2d> shifts(const CameraCalibration& a, const CameraCalibration& b) {
+  const auto first = make_camera_model(a), second = make_camera_model(b);
+  std::vector<Eigen::Vector2d> result;
+  for (int row = 0; row <= kGridSteps; ++row) {
+    for (int column = 0; column <= kGridSteps; ++column) {
+      const Eigen::Vector2d pixel((a.width - 1.0) * column / kGridSteps, (a.height - 1.0) * row / kGridSteps);
+      const auto ray = first->unproject(pixel);
+      if (!ray) continue;
+      const Eigen::Vector2d shift = second->project(*ray) - pixel;
+      if (shift.allFinite()) result.push_back(shift);
+    }
+  }
+  return result;
 }
 
 }  // namespace
 
 double largest_shift(const CameraCalibration& a, const CameraCalibration& b) {
-  const auto first = make_camera_model(a), second = make_camera_model(b);
+  const std::vector<Eigen::Vector2d> all = shifts(a, b);
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& shift : all) mean += shift / static_cast<double>(all.size());
   double largest = 0;
-  for (int row = 0; row <= kGridSteps; ++row) {
-    for (int column = 0; column <= kGridSteps; ++column) {
-      const Eigen::Vector2d pixel((a.width - 1.0) * column / kGridSteps, (a.height - 1.0) * row / kGridSteps);
-      const auto ray = first->unproject(pixel);
-      const double shift = ray ? (second->project(*ray) - pixel).norm() : 0;
-      if (std::isfinite(shift)) largest = std::max(largest, shift);
-    }
-  }
+  for (const Eigen::Vector2d& shift : all) largest = std::max(largest, (shift - mean).norm());
   return largest;
 }
 
@@ -45,20 +57,22 @@ SelfCalibration::SelfCalibration(const Calibration& calibration, const PinholeIn
 
 LensEstimate SelfCalibration::estimate() const {
   const LensEstimate both = estimator_.estimate();
+  if (calibration_.camera.readout_ms != 0) return both;  // That the shutter rolls is known.
   const double stddev = std::sqrt(both.covariance(kLensDof, kLensDof));
   const bool certain = std::abs(both.change[kLensDof]) > settings_.significance * stddev &&
-                       std::abs(both.camera.readout_ms - calibration_.camera.readout_ms) > settings_.least_readout_ms;
+                       std::abs(both.camera.readout_ms) > settings_.least_readout_ms;
   // A readout that is but noise would add to the error of the lens.
   return certain ? both : estimator_.estimate(/*readout_too=*/false);
 }
 
-bool SelfCalibration::add(const Window& window) {
-  if (!estimator_.add(window)) return false;
+double SelfCalibration::deviations() const {
+  if (estimator_.windows() < settings_.least_windows) return 0;
   const LensEstimate better = estimate();
-  if (estimator_.windows() < settings_.least_windows || !is_plausible(calibration_.camera, better)) return false;
-  const bool worth_it = better.camera.readout_ms != calibration_.camera.readout_ms ||
+  if (!is_plausible(calibration_.camera, better)) return 0;
+  const double readout_change = std::abs(better.camera.readout_ms - calibration_.camera.readout_ms);
+  const bool worth_it = readout_change > settings_.least_readout_ms ||
                         largest_shift(calibration_.camera, better.camera) > settings_.least_shift;
-  return better.chi2 > settings_.significance * settings_.significance && worth_it;
+  return worth_it ? std::sqrt(better.chi2) : 0;
 }
 
 Calibration SelfCalibration::better() const {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Decides from the first keyframes of a sequence whether its calibration is wrong, and gives a better one.
+// What the first frames of one pass over a sequence say of its calibration.
 
 #include <optional>
 
@@ -16,9 +16,12 @@ class SelfCalibration {
   SelfCalibration(const Calibration& calibration, const PinholeIntrinsics& rectified,
                   const SelfCalibrationSettings& settings);
 
-  /// To be called after each keyframe with the window as it then is. True if the residuals contradict the calibration
-  /// for certain and by much: better() is worth beginning anew.
-  bool add(const Window& window);
+  /// To be called after each keyframe of a sound map with the window as it then is.
+  void add(const Window& window) { estimator_.add(window); }
+
+  /// By how many of its standard deviations the residuals contradict the calibration. 0 if the difference is too small
+  /// to matter, if it comes from few windows, or if it is so large that something else must be wrong.
+  double deviations() const;
 
   /// The calibration with the lens that the residuals so far speak for, and with the shutter if they do so for certain.
   Calibration better() const;
@@ -31,8 +34,8 @@ class SelfCalibration {
   LensEstimator estimator_;
 };
 
-/// Largest distance between the pixels at which two lenses show the same ray, over a grid of the image [px]. Rays that
-/// one of them does not show are left out.
+/// Largest distance between the pixels at which two lenses show the same ray, over a grid of the image, but for their
+/// mean [px]: all pixels shifted alike are a turned camera. Rays that one of the lenses does not show are left out.
 double largest_shift(const CameraCalibration& a, const CameraCalibration& b);
 
 }  // namespace ldso

@@ -135,7 +135,7 @@ void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti) {
   write_picture(out, summary);
   write_recording(out.file(kRecordingName), summary.recording);
   for (const char* name : {kCameraName, kBetterCameraName}) out.remove(name);
-  if (summary.run.passes > 1) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
+  if (summary.run.is_corrected) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
   if (summary.run.better_calibration)
     write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.better_calibration));
 }

@@ -206,8 +206,8 @@ std::string warning_lists(const RunSummary& summary) {
 std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
   const Calibration& given = dataset.calibration();
   const SequenceRun& run = summary.run;
-  Rows rows = {camera_row(run.passes > 1 ? "as given" : "calibration", given.camera)};
-  if (run.passes > 1) rows.push_back(camera_row("as corrected", run.calibration.camera));
+  Rows rows = {camera_row(run.is_corrected ? "as given" : "calibration", given.camera)};
+  if (run.is_corrected) rows.push_back(camera_row("as corrected", run.calibration.camera));
   if (run.better_calibration) rows.push_back(camera_row("better", run.better_calibration->camera));
   const PinholeIntrinsics& rectified = run.result.camera;
   rows.push_back(camera_row("rectified, as estimated", {CameraModelKind::kPinhole,
@@ -219,13 +219,19 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
                                                         rectified.cy,
                                                         {}}));
   std::string html = html::table({"", "model", "fx", "fy", "cx", "cy", "distortion", "readout [ms]"}, rows, {0, 1, 6});
-  if (run.passes > 1) {
+  if (run.is_corrected) {
     html +=
         html::element("p",
                       format_text("The images contradicted the calibration: it was corrected and the run begun anew, "
                                   "%d times. camera.txt holds the better one.",
                                   run.passes - 1),
                       "warning");
+  } else if (!run.refused_correction.empty()) {
+    html += html::element("p",
+                          "The images seemed to contradict the calibration, but another one did not prove better; the "
+                          "given one stands. Refused: " +
+                              run.refused_correction + ".",
+                          "note");
   } else if (run.better_calibration) {
     html += html::element("p",
                           "The images contradict the calibration. A live run cannot begin anew and went on with it; "

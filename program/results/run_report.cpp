@@ -50,7 +50,9 @@ Json json_of(const PinholeIntrinsics& camera) {
 Json self_calibration_json(const SequenceRun& run) {
   const CameraCalibration& camera = run.calibration.camera;
   return {{"passes", run.passes},
-          {"corrected", run.passes > 1},
+          {"corrected", run.is_corrected},
+          {"proof", run.proof},
+          {"refused", run.refused_correction},
           {"camera",
            {{"model", model_name(camera.model)},
             {"fx", camera.fx},
@@ -153,7 +155,8 @@ std::string evaluation_text(const RunSummary& summary) {
 }
 
 std::string calibration_text(const SequenceRun& run) {
-  if (run.passes == 1) return "";
+  if (!run.refused_correction.empty()) return "calibration    as given; refused: " + run.refused_correction + "\n";
+  if (!run.is_corrected) return "";
   const CameraCalibration& camera = run.calibration.camera;
   std::string text = format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f", camera.fx,
                                  camera.fy, camera.distortion[0]);

@@ -118,17 +118,46 @@ class Latency {
 };
 
 std::string describe_wrong_calibration(const Calibration& used, const Calibration& better) {
-  return describe_change(used.camera, better.camera) +
+  return "the images contradict the calibration: " + describe_change(used.camera, better.camera) +
          "; a live run cannot begin anew and goes on with what it was given";
 }
+
+/// Looks at the calibration until enough frames have come or none comes any more; then says what is wrong with it.
+class LiveWatch {
+ public:
+  LiveWatch(const SelfCalibrationSettings& settings, const Pipeline& pipeline, const LogSink& log, SequenceRun& run)
+      : significance_(settings.significance), log_(log), run_(run) {
+    if (settings.enabled) watch_.emplace(run.calibration, settings, pipeline);
+  }
+
+  void add(const FrameRecord& frame, Pipeline& pipeline) {
+    if (!watch_) return;
+    watch_->add(frame, pipeline);
+    if (watch_->is_over()) decide();
+  }
+
+  void decide() {
+    if (!watch_) return;
+    if (const CalibrationFindings findings = watch_->findings(); findings.deviations > significance_) {
+      run_.better_calibration = findings.better;
+      log_to(log_, LogLevel::kWarning, describe_wrong_calibration(run_.calibration, *run_.better_calibration));
+    }
+    watch_.reset();
+  }
+
+ private:
+  double significance_;
+  const LogSink& log_;
+  SequenceRun& run_;
+  std::optional<CalibrationWatch> watch_;
+};
 
 /// Tracks what the reader gives; figures of the run go to `run`.
 void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream, const Settings& settings,
                const LogSink& log, const RunOptions& options, SequenceRun& run) {
-  std::optional<CalibrationWatch> watch;
-  if (settings.self_calibration.enabled) watch.emplace(run.calibration, settings.self_calibration, pipeline);
+  LiveWatch watch(settings.self_calibration, pipeline, log, run);
   Latency latency;
-  for (int done = 1;; ++done) {
+  while (true) {
     std::optional<LiveItem> item;
     {
       const StageTimer timer(pipeline.times(), "wait_for_frame");
@@ -143,11 +172,9 @@ void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream
       options.progress(
           {static_cast<int>(frame.frame_id) + 1, stream.size(), pipeline.keyframes(), frame, run.live->dropped});
     }
-    if (!watch || !watch->is_wrong(frame, done, pipeline)) continue;
-    run.better_calibration = watch->better();
-    watch.reset();
-    log_to(log, LogLevel::kWarning, describe_wrong_calibration(run.calibration, *run.better_calibration));
+    watch.add(frame, pipeline);
   }
+  watch.decide();
 }
 
 }  // namespace

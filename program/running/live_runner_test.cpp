@@ -147,11 +147,10 @@ TEST(LiveRunner, ASourceThatFailsEndsTheRunWithWhatThereIs) {
 
 TEST(LiveRunner, GoesOnWithAWrongCalibrationAndKeepsTheBetterOne) {
   Settings settings;
-  settings.self_calibration.least_windows = 1;
   settings.self_calibration.significance = 0;  // Anything will do.
   settings.self_calibration.least_shift = 0;
   std::vector<std::string> warnings;
-  const SequenceRun live = run_unhurried(30, settings, [&](LogLevel level, const std::string& text) {
+  const SequenceRun live = run_unhurried(120, settings, [&](LogLevel level, const std::string& text) {
     if (level == LogLevel::kWarning) warnings.push_back(text);
   });
   EXPECT_EQ(live.passes, 1);

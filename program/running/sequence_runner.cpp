@@ -8,7 +8,7 @@
 
 #include "io/images/prefetching_reader.h"
 #include "running/ready_frame.h"
-#include "slam/calibration_watch.h"
+#include "slam/calibration_search.h"
 #include "util/log.h"
 
 namespace ldso {
@@ -26,17 +26,19 @@ const FrameRecord& process(const Dataset& dataset, Pipeline& pipeline, const Rea
 bool must_stop(const RunOptions& options) { return options.stop != nullptr && options.stop->load(); }
 
 /// What ends a pass over the sequence.
-enum class PassEnd { kDone, kStopped, kBetterCalibration };
+enum class PassEnd { kDone, kStopped, kBeginsAnew };
 
 /// One pass over the sequence with one calibration.
 class Pass {
  public:
   Pass(const Dataset& dataset, const Calibration& calibration, const Settings& settings, const LogSink& log,
        const RunOptions& options)
-      : dataset_(dataset), pipeline_(calibration, settings, log, options.observer) {}
+      : dataset_(dataset), log_(log), pipeline_(calibration, settings, log, options.observer) {}
 
-  void watch_calibration(const Calibration& calibration, const SelfCalibrationSettings& settings) {
-    watch_.emplace(calibration, settings, pipeline_);
+  /// `search` hears of the first frames and says whether to go on. It must outlive this.
+  void watch_for(CalibrationSearch& search, const SelfCalibrationSettings& settings) {
+    search_ = &search;
+    watch_.emplace(search.calibration(), settings, pipeline_);
   }
 
   PassEnd run(const RunOptions& options) {
@@ -53,44 +55,69 @@ class Pass {
       if (!item) break;
       const FrameRecord& frame = process(dataset_, pipeline_, *item);
       if (options.progress) options.progress({done, dataset_.size(), pipeline_.keyframes(), frame, 0});
-      if (watch_ && watch_->is_wrong(frame, done, pipeline_)) return PassEnd::kBetterCalibration;
+      if (watch_) watch_->add(frame, pipeline_);
+      if (watch_ && watch_->is_over() && begins_anew()) return PassEnd::kBeginsAnew;
     }
-    return PassEnd::kDone;
+    return watch_ && begins_anew() ? PassEnd::kBeginsAnew : PassEnd::kDone;
   }
 
-  Calibration better_calibration() const { return watch_->better(); }
   SlamResult finish() { return pipeline_.finish(); }
 
  private:
+  /// Once, after the frames that are watched.
+  bool begins_anew() {
+    const bool anew = search_->begins_anew(watch_->findings());
+    watch_.reset();
+    if (search_->is_corrected()) log_to(log_, LogLevel::kInfo, "the better calibration stands: " + search_->proof());
+    return anew;
+  }
+
   const Dataset& dataset_;
+  const LogSink& log_;
   Pipeline pipeline_;
+  CalibrationSearch* search_ = nullptr;
   std::optional<CalibrationWatch> watch_;
 };
+
+void log_next(const CalibrationSearch& search, const Calibration& given, const LogSink& log) {
+  if (search.is_open()) {
+    log_to(log, LogLevel::kInfo,
+           "the images contradict the calibration: " + describe_change(given.camera, search.calibration().camera) +
+               "; starting again to see whether that is better");
+  } else {
+    log_to(log, LogLevel::kInfo, "the calibration stands. Refused: " + search.refusal() + "; starting again with it");
+  }
+}
+
+/// A failure ends the pass where it is.
+PassEnd run_pass(Pass& pass, const RunOptions& options, std::string& error) {
+  try {
+    return pass.run(options);
+  } catch (const std::exception& failure) {
+    error = failure.what();
+    return PassEnd::kDone;
+  }
+}
 
 }  // namespace
 
 SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const LogSink& log,
                          const RunOptions& options) {
   SequenceRun run;
-  run.calibration = dataset.calibration();
   const Clock::time_point start = Clock::now();
+  CalibrationSearch search(dataset.calibration(), settings.self_calibration);
   for (run.passes = 1;; ++run.passes) {
+    run.calibration = search.calibration();
     Pass pass(dataset, run.calibration, settings, log, options);
-    if (settings.self_calibration.enabled && run.passes < settings.self_calibration.passes) {
-      pass.watch_calibration(run.calibration, settings.self_calibration);
-    }
-    PassEnd end = PassEnd::kDone;
-    try {
-      end = pass.run(options);
-    } catch (const std::exception& error) {
-      run.error = error.what();
-    }
-    if (end == PassEnd::kBetterCalibration) {
-      Calibration better = pass.better_calibration();
-      log_to(log, LogLevel::kInfo, describe_change(run.calibration.camera, better.camera) + "; starting again");
-      run.calibration = std::move(better);
+    if (search.is_open()) pass.watch_for(search, settings.self_calibration);
+    const PassEnd end = run_pass(pass, options, run.error);
+    if (end == PassEnd::kBeginsAnew) {
+      log_next(search, dataset.calibration(), log);
       continue;
     }
+    run.is_corrected = search.is_corrected();
+    run.proof = search.proof();
+    run.refused_correction = search.refusal();
     run.stopped = end == PassEnd::kStopped;
     run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.result = pass.finish();

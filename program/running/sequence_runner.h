@@ -38,18 +38,22 @@ struct LiveFigures {
 
 struct SequenceRun {
   SlamResult result;
-  Calibration calibration;  ///< What the frames were read with in the end: the dataset's or a better one.
-  int passes = 1;           ///< How often the sequence was begun: once more for each correction of the calibration.
-  bool stopped = false;     ///< Before its last frame, by the flag.
-  std::string error;        ///< Why it ended early otherwise; what was done until then is in `result`.
-  double seconds = 0;       ///< Wall time of all frames.
+  Calibration calibration;         ///< What the frames were read with in the end: the dataset's or a better one.
+  int passes = 1;                  ///< How often the sequence was begun: once more for each calibration that was tried.
+  bool is_corrected = false;       ///< `calibration` is a better one that has proven itself.
+  std::string proof;               ///< What speaks for it; empty if nothing was corrected.
+  std::string refused_correction;  ///< A better one that was tried and did not prove itself, and why not; or empty.
+  bool stopped = false;            ///< Before its last frame, by the flag.
+  std::string error;               ///< Why it ended early otherwise; what was done until then is in `result`.
+  double seconds = 0;              ///< Wall time of all frames.
   std::optional<LiveFigures> live = std::nullopt;  ///< Of a live run.
   /// What a live run found to be better, but could not begin anew with.
   std::optional<Calibration> better_calibration = std::nullopt;
 };
 
 /// A frame that cannot be read or has a wrong size is skipped with its reason; the run goes on. If the first frames
-/// contradict the calibration, it is corrected and the run begins anew. Throws Error if the calibration or a setting
+/// contradict the calibration, the run begins anew with a better one, and once more with the one that was given if that
+/// does not prove itself. Throws Error if the calibration or a setting
 /// makes no sense.
 SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const LogSink& log = {},
                          const RunOptions& options = {});

@@ -1,7 +1,8 @@
 #include "odometry/window/lens_equations.h"
 
 #include <Eigen/LU>
-#include <array>
+#include <algorithm>
+#include <vector>
 
 #include "geometry/rolling_shutter.h"
 #include "odometry/window/normal_equations.h"
@@ -12,40 +13,15 @@ namespace {
 /// A point whose inverse depth is determined more weakly is taken as known.
 constexpr double kLeastIdepthHessian = 1;
 
-constexpr int kPairDof = kLensGlobalDof + kFrameDof;       ///< Global, relative pose and brightness.
-constexpr int kLocalDof = kLensGlobalDof + 2 * kFrameDof;  ///< Global, target, host.
-constexpr int kPixelDof = kPairDof - 2;                    ///< What moves the pixel: not the brightness.
+constexpr int kPairDof = kLensGlobalDof + kFrameDof;  ///< Global, relative pose and brightness.
+constexpr int kPixelDof = kPairDof - 2;               ///< What moves the pixel: not the brightness.
 
 using LensShift = Eigen::Matrix<double, 2, kLensDof>;
 using PixelJacobian = Eigen::Matrix<double, 2, kPixelDof>;
 using PairMatrix = Eigen::Matrix<double, kPairDof, kPairDof>;
 using PairVector = Eigen::Matrix<double, kPairDof, 1>;
-using LocalMatrix = Eigen::Matrix<double, kLocalDof, kLocalDof>;
-using LocalVector = Eigen::Matrix<double, kLocalDof, 1>;
 
 int offset(int keyframe) { return kLensGlobalDof + kFrameDof * keyframe; }
-
-/// Where the local variables of one residual stand among all.
-class LocalBlocks {
- public:
-  LocalBlocks(int host, int target) : to_{0, offset(target), offset(host)} {}
-
-  void add(const LocalVector& from, Eigen::VectorXd& sum) const {
-    for (int i = 0; i < 3; ++i) sum.segment(to_[i], kSize[i]) += from.segment(kFrom[i], kSize[i]);
-  }
-  void add(const LocalMatrix& from, Eigen::MatrixXd& sum) const {
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        sum.block(to_[i], to_[j], kSize[i], kSize[j]) += from.block(kFrom[i], kFrom[j], kSize[i], kSize[j]);
-      }
-    }
-  }
-
- private:
-  static constexpr std::array<int, 3> kFrom = {0, kLensGlobalDof, kPairDof};
-  static constexpr std::array<int, 3> kSize = {kLensGlobalDof, kFrameDof, kFrameDof};
-  std::array<int, 3> to_;
-};
 
 /// Jacobians of one residual's pixel.
 struct ResidualJacobian {
@@ -96,17 +72,60 @@ PairEquations pair_equations(const PatternSums& s, const ResidualJacobian& J) {
   return e;
 }
 
-/// Maps the variables of a pair to the local ones: the host's tangent through the adjoint, the target's as it is.
-Eigen::Matrix<double, kPairDof, kLocalDof> local_map(const FramePair& pair) {
-  Eigen::Matrix<double, kPairDof, kLocalDof> map;
-  map.setZero();
-  map.leftCols<kPairDof>().setIdentity();
-  map.bottomRightCorner<kFrameDof, kFrameDof>() = pair.host_adjoint;
-  return map;
+/// Adds a vector over the variables of a pair to one over all: the host's tangent through the adjoint, the target's as
+/// it is.
+void add_vector(const PairVector& from, const FramePair& pair, int host, int target, Eigen::VectorXd& sum) {
+  const FrameVector relative = from.tail<kFrameDof>();
+  sum.head<kLensGlobalDof>() += from.head<kLensGlobalDof>();
+  sum.segment<kFrameDof>(offset(target)) += relative;
+  sum.segment<kFrameDof>(offset(host)) += pair.host_adjoint.transpose() * relative;
 }
 
+/// The same for a matrix.
+void add_matrix(const PairMatrix& from, const FramePair& pair, int host, int target, Eigen::MatrixXd& sum) {
+  using FrameMatrix = Eigen::Matrix<double, kFrameDof, kFrameDof>;
+  using Mixed = Eigen::Matrix<double, kLensGlobalDof, kFrameDof>;
+  const FrameMatrix relative = from.bottomRightCorner<kFrameDof, kFrameDof>(), A = pair.host_adjoint;
+  const Mixed mixed = from.topRightCorner<kLensGlobalDof, kFrameDof>();
+  const FrameMatrix target_host = relative * A;
+  const Mixed mixed_host = mixed * A;
+  const int t = offset(target), h = offset(host);
+  sum.topLeftCorner<kLensGlobalDof, kLensGlobalDof>() += from.topLeftCorner<kLensGlobalDof, kLensGlobalDof>();
+  sum.block<kLensGlobalDof, kFrameDof>(0, t) += mixed;
+  sum.block<kFrameDof, kLensGlobalDof>(t, 0) += mixed.transpose();
+  sum.block<kLensGlobalDof, kFrameDof>(0, h) += mixed_host;
+  sum.block<kFrameDof, kLensGlobalDof>(h, 0) += mixed_host.transpose();
+  sum.block<kFrameDof, kFrameDof>(t, t) += relative;
+  sum.block<kFrameDof, kFrameDof>(t, h) += target_host;
+  sum.block<kFrameDof, kFrameDof>(h, t) += target_host.transpose();
+  sum.block<kFrameDof, kFrameDof>(h, h) += A.transpose() * target_host;
+}
+
+/// Sums over the residuals of one host, one entry a target.
+class HostEquations {
+ public:
+  explicit HostEquations(int keyframes) : H_(keyframes, PairMatrix::Zero()), b_(keyframes, PairVector::Zero()) {}
+
+  void add(int target, const PairEquations& e) {
+    H_[target] += e.H;
+    b_[target] += e.b;
+  }
+
+  void add_to(const FramePairs& pairs, int host, LensEquations& equations) const {
+    for (int target = 0; target < static_cast<int>(H_.size()); ++target) {
+      if (target == host) continue;
+      add_matrix(H_[target], pairs(host, target), host, target, equations.H);
+      add_vector(b_[target], pairs(host, target), host, target, equations.b);
+    }
+  }
+
+ private:
+  std::vector<PairMatrix> H_;
+  std::vector<PairVector> b_;
+};
+
 void add_point(const Window& window, const CameraModel& lens, const FramePairs& pairs, int host,
-               const ActivePoint& point, LensEquations& equations) {
+               const ActivePoint& point, HostEquations& sums, LensEquations& equations) {
   const PinholeIntrinsics camera = window.intrinsics();
   const LensShift host_shift = lens_shift(lens, {(point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy});
   Eigen::VectorXd coupling = Eigen::VectorXd::Zero(equations.b.size());
@@ -119,11 +138,8 @@ void add_point(const Window& window, const CameraModel& lens, const FramePairs& 
     ResidualJacobian J;
     if (!make_jacobian(lens, window, host, target, pair, point, host_shift, J)) continue;
     const PairEquations e = pair_equations(s, J);
-    const auto map = local_map(pair);
-    const LocalBlocks blocks(host, target);
-    blocks.add(LocalMatrix(map.transpose() * e.H * map), equations.H);
-    blocks.add(LocalVector(map.transpose() * e.b), equations.b);
-    blocks.add(LocalVector(map.transpose() * e.coupling), coupling);
+    sums.add(target, e);
+    add_vector(e.coupling, pair, host, target, coupling);
     hessian += s.gxx * J.idepth.x() * J.idepth.x() + 2 * s.gxy * J.idepth.x() * J.idepth.y() +
                s.gyy * J.idepth.y() * J.idepth.y();
     gradient += s.rgx * J.idepth.x() + s.rgy * J.idepth.y();
@@ -140,7 +156,9 @@ Eigen::Matrix<double, 2, kLensDof> lens_shift(const CameraModel& lens, const Eig
   Eigen::Matrix2Xd J_parameters;
   lens.project(ray.homogeneous(), &J_point, &J_parameters);
   LensShift raw;
-  raw << J_parameters.leftCols<2>(), J_parameters.col(kCameraDof);
+  const Eigen::Index known = std::min<Eigen::Index>(kLensDof, J_parameters.cols());
+  raw.setZero();
+  raw.leftCols(known) = J_parameters.leftCols(known);
   // The raw pixel moves so; which ray of the rectified image shows it is a matter of the lens as it was given.
   const Eigen::Matrix2d raw_by_ray = J_point.leftCols<2>();
   const LensShift shift = raw_by_ray.inverse() * raw;
@@ -154,9 +172,11 @@ LensEquations make_lens_equations(const Window& window, const CameraModel& lens)
     const int at = offset(keyframe->index);
     equations.H.diagonal().segment<kFrameDof>(at) += keyframe->prior;
     equations.b.segment<kFrameDof>(at) += keyframe->prior.cwiseProduct(keyframe->state.delta - keyframe->prior_mean);
+    HostEquations sums(window.size());
     for (const ActivePoint& point : keyframe->points) {
-      add_point(window, lens, pairs, keyframe->index, point, equations);
+      add_point(window, lens, pairs, keyframe->index, point, sums, equations);
     }
+    sums.add_to(pairs, keyframe->index, equations);
   }
   return equations;
 }

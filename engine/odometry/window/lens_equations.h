@@ -10,8 +10,9 @@
 
 namespace ldso {
 
-/// Of the lens: fx, fy [px] and the first distortion coefficient.
-inline constexpr int kLensDof = 3;
+/// Of the lens: fx, fy, cx, cy [px] and the first two distortion coefficients; a model that has but one leaves the
+/// second without a say.
+inline constexpr int kLensDof = 6;
 /// Of lens and shutter: the time in which a rectified image is read, first row to last [s], comes last.
 inline constexpr int kLensShutterDof = kLensDof + 1;
 inline constexpr int kLensGlobalDof = kCameraDof + kLensShutterDof;

@@ -32,16 +32,20 @@ Eigen::Vector2d shown_at(const CameraCalibration& given, const CameraCalibration
 
 class LensShift : public testing::TestWithParam<CameraCalibration> {};
 
-TEST_P(LensShift, IsTheDerivativeByFocalLengthsAndDistortion) {
+TEST_P(LensShift, IsTheDerivativeByTheParameters) {
   const CameraCalibration given = GetParam();
   for (const Eigen::Vector2d& ray : {Eigen::Vector2d(0.1, -0.2), Eigen::Vector2d(-0.5, 0.35), Eigen::Vector2d(0, 0)}) {
     const Eigen::Matrix<double, 2, kLensDof> J = lens_shift(*make_camera_model(given), ray);
     for (int i = 0; i < kLensDof; ++i) {
       CameraCalibration more = given, less = given;
       const auto parameter = [i](CameraCalibration& c) -> double& {
-        return i == 0 ? c.fx : i == 1 ? c.fy : c.distortion[0];
+        return i == 0 ? c.fx : i == 1 ? c.fy : i == 2 ? c.cx : i == 3 ? c.cy : c.distortion[i - 4];
       };
-      const double step = i == 2 ? 1e-5 : 1e-2;
+      if (i == 5 && given.model == CameraModelKind::kFov) {
+        EXPECT_TRUE(J.col(i).isZero());
+        continue;
+      }
+      const double step = i >= 4 ? 1e-5 : 1e-2;
       parameter(more) += step;
       parameter(less) -= step;
       const Eigen::Vector2d numeric = (shown_at(given, more, ray) - shown_at(given, less, ray)) / (2 * step);

@@ -1,7 +1,5 @@
 #include "odometry/window/lens_estimator.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "geometry/rolling_shutter.h"
@@ -17,14 +15,16 @@ constexpr int kSpacing = 3;
 constexpr int kLeastKeyframes = 5;
 /// Eigenvalues of the scaled system of the frames below this share of the largest are its gauge.
 constexpr double kGaugeShare = 1e-7;
-/// Standard deviation of the given focal lengths, as a share of them.
+/// Standard deviation of a given focal length, as a share of it.
 constexpr double kFocalShare = 0.05;
-/// Of the given first distortion coefficient.
+/// Of the given aspect ratio of the pixels.
+constexpr double kAspectShare = 0.02;
+/// Of the given principal point, as a share of the image's size.
+constexpr double kCenterShare = 0.02;
+/// Of a given distortion coefficient.
 constexpr double kRadialStddev = 0.2;
 /// Of the readout [s].
 constexpr double kReadoutStddev = 0.05;
-/// Pixels that were given as square are so: standard deviation of the aspect ratio.
-constexpr double kAspectShare = 0.005;
 
 /// A lens model that has a radial coefficient.
 CameraCalibration with_radial(CameraCalibration camera) {
@@ -34,10 +34,17 @@ CameraCalibration with_radial(CameraCalibration camera) {
   return camera;
 }
 
-LensMatrix prior_information(const CameraCalibration& camera) {
-  const LensVector stddev(kFocalShare * camera.fx, kFocalShare * camera.fy, kRadialStddev, kReadoutStddev);
-  const LensVector aspect(1 / (kAspectShare * camera.fx), -1 / (kAspectShare * camera.fy), 0, 0);
-  return LensMatrix(stddev.cwiseAbs2().cwiseInverse().asDiagonal()) + aspect * aspect.transpose();
+/// The directions in which a given calibration is uncertain, each as long as its standard deviation: both focal lengths
+/// together, their ratio, the principal point, distortion, and the readout if it is to be estimated.
+Eigen::MatrixXd uncertainty(const CameraCalibration& camera, bool readout_too) {
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(kLensShutterDof, readout_too ? kLensShutterDof : kLensDof);
+  unit.col(0).head<2>() << kFocalShare * camera.fx, kFocalShare * camera.fy;
+  unit.col(1).head<2>() << 0.5 * kAspectShare * camera.fx, -0.5 * kAspectShare * camera.fy;
+  unit(2, 2) = kCenterShare * camera.width;
+  unit(3, 3) = kCenterShare * camera.height;
+  unit(4, 4) = unit(5, 5) = kRadialStddev;
+  if (readout_too) unit(kLensDof, kLensDof) = kReadoutStddev;
+  return unit;
 }
 
 /// The system without the frames: they are solved for, along their gauge they stay.
@@ -56,7 +63,7 @@ LensEquations without_frames(const LensEquations& full) {
 }  // namespace
 
 LensEstimator::LensEstimator(const CameraCalibration& camera, const PinholeIntrinsics& rectified)
-    : rectified_(rectified), model_(make_camera_model(with_radial(camera))), information_(prior_information(camera)) {}
+    : rectified_(rectified), model_(make_camera_model(with_radial(camera))) {}
 
 bool LensEstimator::add(const Window& window) {
   if (window.size() < kLeastKeyframes || !(window.rmse > 0)) return false;
@@ -72,26 +79,21 @@ bool LensEstimator::add(const Window& window) {
       reduced.b.tail<kLensShutterDof>() + reduced.H.bottomLeftCorner<kLensShutterDof, kCameraDof>() * back;
   if (!H.allFinite() || !g.allFinite()) return false;
   const double weight = kSpacing / (kResidualCorrelation * window.size() * window.rmse * window.rmse);
-  information_ += weight * H;
-  gradient_ += weight * g;
-  ++windows_;
+  windows_.push_back({weight * H, weight * g});
   newest_used_ = window.keyframes.back()->id();
   return true;
 }
 
 LensEstimate LensEstimator::estimate(bool readout_too) const {
-  const int n = readout_too ? kLensShutterDof : kLensDof;
-  const Eigen::MatrixXd information = information_.topLeftCorner(n, n);
-  LensEstimate result;
-  result.change.head(n) = -information.ldlt().solve(gradient_.head(n));
-  result.covariance.setZero();
-  result.covariance.topLeftCorner(n, n) = information.inverse();
-  result.chi2 = result.change.head(n).dot(information * result.change.head(n));
-  result.camera = model_->calibration();
-  result.camera.fx += result.change[0];
-  result.camera.fy += result.change[1];
-  result.camera.distortion[0] += result.change[2];
-  result.camera.readout_ms += 1e3 * result.change[3] / covered_rows(*model_, rectified_);
+  LensEstimate result{solve_lens(windows_, uncertainty(model_->calibration(), readout_too)), model_->calibration()};
+  CameraCalibration& camera = result.camera;
+  camera.fx += result.change[0];
+  camera.fy += result.change[1];
+  camera.cx += result.change[2];
+  camera.cy += result.change[3];
+  camera.distortion[0] += result.change[4];
+  camera.distortion[1] += result.change[5];
+  camera.readout_ms += 1e3 * result.change[kLensDof] / covered_rows(*model_, rectified_);
   return result;
 }
 

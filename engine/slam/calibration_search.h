@@ -1,0 +1,50 @@
+#pragma once
+
+// From pass to pass over a sequence: which calibration the next one is run with, until one has proven itself or all
+// are refused. A calibration that was given is only left for one that the windows agree on, that stays where it is
+// when the run begins anew with it, and with which the same frames are explained better.
+
+#include <string>
+
+#include "ldso/calibration.h"
+#include "ldso/settings.h"
+#include "slam/calibration_watch.h"
+
+namespace ldso {
+
+class CalibrationSearch {
+ public:
+  CalibrationSearch(Calibration given, const SelfCalibrationSettings& settings);
+
+  /// What the next pass is to be run with.
+  const Calibration& calibration() const { return calibration_; }
+  /// Whether that pass is to be watched.
+  bool is_open() const { return state_ == State::kGiven || state_ == State::kTrying; }
+  /// To be called once, after the watched frames of a pass with calibration(). True if it is to begin anew.
+  bool begins_anew(const CalibrationFindings& findings);
+
+  /// Passes that were watched.
+  int passes() const { return passes_; }
+  bool is_corrected() const { return state_ == State::kProven; }
+  /// What spoke for the correction, if it was accepted.
+  const std::string& proof() const { return proof_; }
+  /// Why a contradiction was not followed; empty if there was none or the correction was accepted.
+  const std::string& refusal() const { return refusal_; }
+
+ private:
+  enum class State { kGiven, kTrying, kKept, kProven, kRefused };
+
+  bool try_next(const CalibrationFindings& findings);
+  bool prove(const CalibrationFindings& findings);
+  bool refuse(const std::string& why);
+
+  Calibration given_, calibration_;
+  SelfCalibrationSettings settings_;
+  State state_ = State::kGiven;
+  std::vector<WindowFit> fits_;  ///< With the given calibration.
+  double step_ = 0;              ///< The last change of the calibration [px].
+  int passes_ = 0;
+  std::string refusal_, proof_;
+};
+
+}  // namespace ldso

@@ -1,0 +1,76 @@
+#include "slam/calibration_search.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/test_scene.h"
+
+namespace ldso {
+namespace {
+
+Calibration with_focal(double factor) {
+  Calibration calibration = scene_calibration();
+  calibration.camera.fx *= factor;
+  calibration.camera.fy *= factor;
+  return calibration;
+}
+
+/// The frames speak for a focal length that is `factor` times the given one, and have residuals of `log_rmse`.
+CalibrationFindings findings(double deviations, double factor, double log_rmse) {
+  CalibrationFindings result{deviations, with_focal(factor), {}};
+  for (int frame = 40; frame < 300; frame += 5) result.fits.push_back({frame, log_rmse, 1});
+  return result;
+}
+
+TEST(CalibrationSearch, WithoutContradictionTheGivenCalibrationIsKept) {
+  CalibrationSearch search(scene_calibration(), {});
+  EXPECT_TRUE(search.is_open());
+  EXPECT_FALSE(search.begins_anew(findings(3, 1.05, 1)));
+  EXPECT_FALSE(search.is_open());
+  EXPECT_FALSE(search.is_corrected());
+  EXPECT_EQ(search.refusal(), "");
+}
+
+TEST(CalibrationSearch, ABetterOneIsAcceptedOnceItStaysAndExplainsTheSameFramesBetter) {
+  CalibrationSearch search(scene_calibration(), {});
+  ASSERT_TRUE(search.begins_anew(findings(20, 1.04, 1)));
+  ASSERT_TRUE(search.begins_anew(findings(8, 1.05, 0.95)));
+  ASSERT_FALSE(search.begins_anew(findings(1, 1.0501, 0.94)));
+  EXPECT_TRUE(search.is_corrected());
+  EXPECT_NE(search.proof().find("residuals changed by -6.00"), std::string::npos) << search.proof();
+  EXPECT_FALSE(search.is_open());
+  EXPECT_EQ(search.calibration().camera.fx, with_focal(1.05).camera.fx);
+}
+
+TEST(CalibrationSearch, WhatDoesNotExplainTheFramesBetterIsRefused) {
+  for (const double log_rmse : {1.0, 1.02, 0.999}) {
+    CalibrationSearch search(scene_calibration(), {});
+    ASSERT_TRUE(search.begins_anew(findings(20, 1.04, 1)));
+    ASSERT_TRUE(search.begins_anew(findings(1, 1.04, log_rmse))) << "the run has to begin with what was given";
+    EXPECT_FALSE(search.is_open());
+    EXPECT_FALSE(search.is_corrected());
+    EXPECT_EQ(search.calibration().camera.fx, scene_calibration().camera.fx);
+    EXPECT_NE(search.refusal().find("proves nothing"), std::string::npos) << search.refusal();
+  }
+}
+
+TEST(CalibrationSearch, PassesThatDoNotComeToRestAreRefusedAsAWhole) {
+  CalibrationSearch search(scene_calibration(), {});
+  ASSERT_TRUE(search.begins_anew(findings(20, 1.04, 1)));
+  ASSERT_TRUE(search.begins_anew(findings(20, 1.07, 0.8)));
+  ASSERT_TRUE(search.begins_anew(findings(20, 1.11, 0.6)));
+  EXPECT_FALSE(search.is_open());
+  EXPECT_EQ(search.calibration().camera.fx, scene_calibration().camera.fx);
+  EXPECT_NE(search.refusal().find("come to rest"), std::string::npos) << search.refusal();
+}
+
+TEST(CalibrationSearch, OffItKeepsWhatWasGiven) {
+  SelfCalibrationSettings settings;
+  settings.enabled = false;
+  EXPECT_FALSE(CalibrationSearch(scene_calibration(), settings).is_open());
+  settings.enabled = true;
+  settings.passes = 1;
+  EXPECT_FALSE(CalibrationSearch(scene_calibration(), settings).is_open());
+}
+
+}  // namespace
+}  // namespace ldso

@@ -1,0 +1,36 @@
+#pragma once
+
+// How well the windows of a run explain their images, and whether those of another run over the same frames do it
+// better: the proof of a calibration.
+
+#include <cstdint>
+#include <vector>
+
+#include "odometry/state/window.h"
+
+namespace ldso {
+
+/// One window after its optimization.
+struct WindowFit {
+  std::int64_t frame_id = 0;    ///< Of its newest keyframe.
+  double log_rmse = 0;          ///< Of the inlier residuals.
+  double log_inlier_share = 0;  ///< Points times other keyframes that have an inlier residual.
+};
+
+WindowFit fit_of(const Window& window);
+
+/// Of one run against another, over the frames that both have; logarithms of ratios.
+struct FitChange {
+  bool is_known = false;    ///< There were enough windows.
+  double residual = 0;      ///< Of the root mean squared residuals: negative if they have become smaller.
+  double stddev = 0;        ///< Of that, from how it varies along the sequence.
+  double inlier_share = 0;  ///< Of that: negative if fewer are left.
+};
+
+/// Both in the order of their frames.
+FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<WindowFit>& after);
+
+/// Whether the change is an improvement for certain and by a margin.
+bool is_better(const FitChange& change);
+
+}  // namespace ldso
