@@ -10,9 +10,9 @@ namespace {
 
 /// A calibration that is being tried has to stay where it is but for so many standard deviations.
 constexpr double kTriedSignificance = 3;
-/// Each change of the calibration, from the third on, must be smaller than this share of the one before. The second may
-/// be larger than the first: what is not determined in bent images may be so once they are straight.
-constexpr double kLargestStepShare = 0.8;
+/// From the third on, a change of the calibration by more than this factor times the one before is a flight. Each may
+/// be somewhat larger than the last: what is not determined in bent images may be so once they are straighter.
+constexpr double kLargestStepFactor = 2;
 /// What an error of the readout by a millisecond counts [px]: a camera that turns by 30 degrees in a second.
 constexpr double kReadoutPixels = 0.25;
 
@@ -49,7 +49,7 @@ bool CalibrationSearch::try_next(const CalibrationFindings& findings) {
     return refuse(format_text("residuals have become larger by %.2f %%", 100 * change.residual));
   }
   const bool is_noise = findings.deviations < settings_.significance;
-  if (passes_ > 2 && !is_noise && step > kLargestStepShare * step_) {
+  if (passes_ > 2 && !is_noise && step > kLargestStepFactor * step_) {
     return refuse("it does not come to rest: from one pass to the next it changed by " +
                   format_text("%.1f px after %.1f px", step, step_));
   }
@@ -61,8 +61,9 @@ bool CalibrationSearch::try_next(const CalibrationFindings& findings) {
 bool CalibrationSearch::prove(const CalibrationFindings& findings) {
   const FitChange change = compare_fits(fits_, findings.fits);
   if (!change.is_known) return refuse("too few windows saw the same frames with both");
-  const std::string figures = format_text("residuals changed by %.2f +- %.2f %%, inliers by %.1f %%",
-                                          100 * change.residual, 100 * change.stddev, 100 * change.inlier_share);
+  const std::string figures =
+      format_text("residuals changed by %.2f +- %.2f %%, by %.2f %% where least, inliers by %.1f %%",
+                  100 * change.residual, 100 * change.stddev, 100 * change.worst, 100 * change.inlier_share);
   if (!is_better(change)) return refuse(figures + ", which proves nothing");
   state_ = State::kProven;
   proof_ = figures;

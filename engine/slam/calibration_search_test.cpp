@@ -57,7 +57,7 @@ TEST(CalibrationSearch, PassesThatDoNotComeToRestAreRefusedAsAWhole) {
   CalibrationSearch search(scene_calibration(), {});
   ASSERT_TRUE(search.begins_anew(findings(20, 1.04, 1)));
   ASSERT_TRUE(search.begins_anew(findings(20, 1.07, 0.8)));
-  ASSERT_TRUE(search.begins_anew(findings(20, 1.11, 0.6)));
+  ASSERT_TRUE(search.begins_anew(findings(20, 1.14, 0.6)));
   EXPECT_FALSE(search.is_open());
   EXPECT_EQ(search.calibration().camera.fx, scene_calibration().camera.fx);
   EXPECT_NE(search.refusal().find("come to rest"), std::string::npos) << search.refusal();

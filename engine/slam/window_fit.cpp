@@ -2,21 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ldso {
 namespace {
 
 /// Stretches of the sequence whose differences are taken as independent.
-constexpr std::size_t kStretches = 6;
+constexpr std::size_t kStretches = 8;
 /// Windows in each of them, at least.
 constexpr std::size_t kLeastInStretch = 2;
 /// Least improvement of the residuals. Runs over the same frames with calibrations that are equally good differ by
 /// less.
 constexpr double kLeastImprovement = 0.004;
+/// The same for an improvement that is certain only because each stretch has it.
+constexpr double kLeastEverywhere = 0.01;
 /// In standard deviations; few stretches show theirs only roughly.
 constexpr double kSignificance = 3;
 /// A fit is not better because what does not fit was left out: by so much the rest shrinks with the share that is.
 constexpr double kShrinkByLoss = 1.5;
+
+/// Pixels from the edge of the image within which a pattern is not whole.
+constexpr double kBorder = 4;
 
 /// Difference of `after` from what `before` was at the same frame, between its windows linearly.
 WindowFit difference(const std::vector<WindowFit>& before, const WindowFit& after) {
@@ -40,16 +46,32 @@ std::vector<WindowFit> differences(const std::vector<WindowFit>& before, const s
   return result;
 }
 
+/// Whether a pixel of a host lies, with its depth, in front of the target and in its image.
+bool is_in_view(const Window& window, const SE3d& T_target_host, const ActivePoint& point) {
+  const PinholeIntrinsics camera = window.intrinsics();
+  const Eigen::Vector3d ray((point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy, 1);
+  const Eigen::Vector3d x = T_target_host.rotation() * ray + point.idepth * T_target_host.translation();
+  if (!(x.z() > 0)) return false;
+  const double u = camera.fx * x.x() / x.z() + camera.cx, v = camera.fy * x.y() / x.z() + camera.cy;
+  return u >= kBorder && v >= kBorder && u < window.width - kBorder && v < window.height - kBorder;
+}
+
 }  // namespace
 
 WindowFit fit_of(const Window& window) {
-  std::size_t points = 0, residuals = 0;
-  for (const auto& keyframe : window.keyframes) {
-    points += keyframe->points.size();
-    for (const ActivePoint& point : keyframe->points) residuals += point.residuals.size();
+  const Keyframe& newest = *window.keyframes.back();
+  std::size_t in_view = 0, inliers = 0;
+  for (const auto& host : window.keyframes) {
+    if (host.get() == &newest) continue;
+    const SE3d T_newest_host = newest.state.T_c_w() * host->state.T_c_w().inverse();
+    for (const ActivePoint& point : host->points) {
+      if (!is_in_view(window, T_newest_host, point)) continue;
+      ++in_view;
+      inliers += std::any_of(point.residuals.begin(), point.residuals.end(),
+                             [&](const PointResidual& residual) { return residual.target == &newest; });
+    }
   }
-  const double possible = static_cast<double>(points) * std::max(1, window.size() - 1);
-  const double share = points > 0 ? static_cast<double>(residuals) / possible : 0;
+  const double share = in_view > 0 ? static_cast<double>(inliers) / static_cast<double>(in_view) : 0;
   return {window.keyframes.back()->id(), std::log(std::max(kLeastResidualRmse, window.rmse)),
           std::log(std::max(1e-3, share))};
 }
@@ -58,6 +80,7 @@ FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<W
   const std::vector<WindowFit> changes = differences(before, after);
   FitChange result;
   if (changes.size() < kStretches * kLeastInStretch) return result;
+  result.worst = -std::numeric_limits<double>::infinity();
   double squares = 0;
   for (std::size_t k = 0; k < kStretches; ++k) {
     const std::size_t begin = k * changes.size() / kStretches, end = (k + 1) * changes.size() / kStretches;
@@ -67,6 +90,7 @@ FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<W
       result.inlier_share += changes[i].log_inlier_share / static_cast<double>((end - begin) * kStretches);
     }
     result.residual += residual / kStretches;
+    result.worst = std::max(result.worst, residual);
     squares += residual * residual;
   }
   const double variance = (squares - kStretches * result.residual * result.residual) / (kStretches - 1);
@@ -77,7 +101,10 @@ FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<W
 
 bool is_better(const FitChange& change) {
   const double explained = kShrinkByLoss * std::max(0.0, -change.inlier_share);
-  return change.is_known && change.residual < -std::max(kLeastImprovement, kSignificance * change.stddev) - explained;
+  if (!change.is_known) return false;
+  const bool is_certain = change.residual < -std::max(kLeastImprovement, kSignificance * change.stddev) - explained;
+  const bool is_everywhere = change.worst < -explained && change.residual < -kLeastEverywhere - explained;
+  return is_certain || is_everywhere;
 }
 
 }  // namespace ldso

@@ -14,7 +14,7 @@ namespace ldso {
 struct WindowFit {
   std::int64_t frame_id = 0;    ///< Of its newest keyframe.
   double log_rmse = 0;          ///< Of the inlier residuals.
-  double log_inlier_share = 0;  ///< Points times other keyframes that have an inlier residual.
+  double log_inlier_share = 0;  ///< Of the older keyframes' points that it has in view: those with an inlier residual.
 };
 
 WindowFit fit_of(const Window& window);
@@ -24,13 +24,15 @@ struct FitChange {
   bool is_known = false;    ///< There were enough windows.
   double residual = 0;      ///< Of the root mean squared residuals: negative if they have become smaller.
   double stddev = 0;        ///< Of that, from how it varies along the sequence.
-  double inlier_share = 0;  ///< Of that: negative if fewer are left.
+  double worst = 0;         ///< The largest of its stretches: negative if the residuals have become smaller in each.
+  double inlier_share = 0;  ///< Of the inliers' share: negative if fewer are left.
 };
 
 /// Both in the order of their frames.
 FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<WindowFit>& after);
 
-/// Whether the change is an improvement for certain and by a margin.
+/// Whether the change is an improvement by a margin and for certain: by its standard deviation, or because there is no
+/// stretch of the sequence without it (how much a stretch gains depends on its motion, and its scatter is no noise).
 bool is_better(const FitChange& change);
 
 }  // namespace ldso

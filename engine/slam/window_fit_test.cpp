@@ -43,6 +43,15 @@ TEST(WindowFit, AnImprovementHereAndALossThereProveNothing) {
   EXPECT_FALSE(is_better(change));
 }
 
+TEST(WindowFit, AnImprovementThatDiffersButIsEverywhereIsOne) {
+  std::vector<WindowFit> after = fits(6, -0.001);
+  for (std::size_t i = 0; i < after.size() / 4; ++i) after[i].log_rmse -= 0.2;
+  const FitChange change = compare_fits(fits(6, 0), after);
+  EXPECT_GT(3 * change.stddev, -change.residual);
+  EXPECT_NEAR(change.worst, -0.001, 1e-9);
+  EXPECT_TRUE(is_better(change));
+}
+
 TEST(WindowFit, ItIsNotBetterToLeaveOutWhatDoesNotFit) {
   EXPECT_FALSE(is_better(compare_fits(fits(6, 0), fits(6, -0.05, -0.1))));
 }

@@ -47,8 +47,8 @@ struct PhotometrySettings {
 /// begins anew.
 struct SelfCalibrationSettings {
   bool enabled = true;
-  int frames = 300;
-  int passes = 5;
+  int frames = 500;
+  int passes = 6;
   int least_windows = 4;
   double significance = 6;
   double least_shift = 0.5;
