@@ -127,6 +127,7 @@ void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const C
 }
 
 std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {
+  if (d.breaks > 0) return {};  // Where a segment lies relative to another one is for loops alone to say.
   const double unit = 1 / std::max(map_[hypothesis.current].median_idepth, 1e-9);
   const Sim3d error = Sim3d::exp(d.x);
   const Eigen::Vector3d moved =
@@ -156,6 +157,7 @@ LoopDiscrepancy LoopCloser::difference(const Hypothesis& older, const Hypothesis
     d.odometry_covariance[k] = to_older.covariance[k] + B * to_newer.covariance[k] * B.transpose();
   }
   d.length = to_older.length + to_newer.length;
+  d.breaks = to_older.breaks + to_newer.breaks;
   return d;
 }
 
@@ -164,7 +166,7 @@ bool LoopCloser::confirms(const Hypothesis& older, const Hypothesis& newer) cons
   if (!std::binary_search(around.begin(), around.end(), older.candidate)) return false;
   const LoopDiscrepancy d =
       difference(older, newer, map_.chain(newer.current, older.current), map_.chain(older.candidate, newer.candidate));
-  return discrepancy_chi2(d, variance_factors_) < settings_.confirmation.chi2;
+  return d.breaks == 0 && discrepancy_chi2(d, variance_factors_) < settings_.confirmation.chi2;
 }
 
 bool LoopCloser::decide(Hypothesis hypothesis) {
@@ -174,7 +176,8 @@ bool LoopCloser::decide(Hypothesis hypothesis) {
   record.drift_chi2 = discrepancy_chi2(d, {});
   record.reason = contradiction(hypothesis, d);
   if (!record.reason.empty()) return false;
-  bool confirmed = record.inliers >= settings_.confirmation.strong_inliers;
+  // Between segments nothing else would contradict a wrong loop.
+  bool confirmed = d.breaks == 0 && record.inliers >= settings_.confirmation.strong_inliers;
   for (Hypothesis& older : hypotheses_) {
     if (older.current + settings_.confirmation.gap < hypothesis.current) continue;
     if (older.current == hypothesis.current || !confirms(older, hypothesis)) continue;
@@ -217,12 +220,14 @@ VarianceFactors LoopCloser::learn_variances() const {
   std::vector<LoopDiscrepancy> with_odometry, between;
   for (std::size_t i = 0; i < accepted_.size(); ++i) {
     const Hypothesis& loop = accepted_[i];
-    with_odometry.push_back(
-        discrepancy(loop.S_current_candidate, loop.covariance, chains.between(loop.current, loop.candidate)));
+    const LoopDiscrepancy of_loop =
+        discrepancy(loop.S_current_candidate, loop.covariance, chains.between(loop.current, loop.candidate));
+    if (of_loop.breaks == 0) with_odometry.push_back(of_loop);
     if (i == 0) continue;
     const Hypothesis& last = accepted_[i - 1];
-    between.push_back(difference(last, loop, chains.between(loop.current, last.current),
-                                 chains.between(last.candidate, loop.candidate)));
+    const LoopDiscrepancy of_pair = difference(last, loop, chains.between(loop.current, last.current),
+                                               chains.between(last.candidate, loop.candidate));
+    if (of_pair.breaks == 0) between.push_back(of_pair);
   }
   return estimate_variance_factors(with_odometry, between, settings_.drift);
 }

@@ -8,8 +8,10 @@
 namespace ldso {
 namespace {
 
-/// Frames that may fail in a row before the map is given up: two thirds of a second of most cameras.
-constexpr int kMostLostFrames = 20;
+/// Frames that may fail in a row before a new start is looked for beside the old map.
+constexpr int kForgivenFrames = 3;
+/// Frames that may fail in a row before the map is given up though no other has begun: three seconds of most cameras.
+constexpr int kMostLostFrames = 90;
 
 }  // namespace
 
@@ -23,6 +25,12 @@ Odometry::Odometry(const PinholeIntrinsics& camera, double readout_s, bool calib
       tracker_(settings.tracking, priors_, readout_s, pool),
       tracer_(settings.tracing, camera.width, camera.height, pool),
       keyframe_maker_(settings, priors_, pool, times_) {}
+
+std::vector<FinishedKeyframe> Odometry::window_keyframes() const {
+  std::vector<FinishedKeyframe> keyframes = finish_all(window_);
+  for (FinishedKeyframe& keyframe : keyframes) keyframe.update.segment = restarts_;
+  return keyframes;
+}
 
 std::unique_ptr<Initializer> Odometry::make_initializer() const {
   return std::make_unique<Initializer>(place_.camera, settings_.initializer, settings_.selection, pool_,
@@ -88,7 +96,7 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
     tracked = tracker_.track(frame, newest());
   }
   if (!tracked.reason.empty()) {
-    handle_loss(tracked.reason, output);
+    handle_loss(frame, tracked.reason, output);
     return;
   }
   lost_frames_ = 0;
@@ -116,31 +124,59 @@ bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, 
   }
   record_keyframe(output.frame);
   ++keyframes_;
-  for (FinishedKeyframe& finished : keyframe_maker_.clear_up(window_)) output.finished.push_back(std::move(finished));
+  for (FinishedKeyframe& finished : keyframe_maker_.clear_up(window_)) {
+    finished.update.segment = restarts_;
+    output.finished.push_back(std::move(finished));
+  }
   return true;
 }
 
-void Odometry::handle_loss(const std::string& reason, OdometryOutput& output) {
+void Odometry::handle_loss(const std::shared_ptr<const PreparedFrame>& frame, const std::string& reason,
+                           OdometryOutput& output) {
   state_ = TrackingState::kLost;
   record_no_pose(TrackingState::kLost, reason, output.frame);
   tracker_.lose();
-  if (++lost_frames_ <= kMostLostFrames) return;
-  restart(reason + " for " + std::to_string(lost_frames_) + " frames", tracker_.T_last_ref() * newest().state.T_c_w(),
-          output);
+  if (++lost_frames_ > kMostLostFrames) {
+    restart(reason + " for " + std::to_string(lost_frames_) + " frames", last_pose(), output);
+  } else if (lost_frames_ > kForgivenFrames) {
+    try_new_start(frame, output);
+  }
 }
 
-void Odometry::restart(const std::string& reason, const SE3d& T_c_w, OdometryOutput& output) {
+void Odometry::try_new_start(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output) {
+  if (lost_frames_ == kForgivenFrames + 1) {
+    place_.camera = window_.intrinsics();
+    initializer_ = make_initializer();
+    waiting_.clear();
+  }
+  const StageTimer timer(times_, "initialize");
+  const Initializer::Status status = initializer_->add(frame);
+  if (status == Initializer::Status::kReady) {
+    leave_map(last_pose(), output);
+    start_map(frame, output);
+    return;
+  }
+  if (status == Initializer::Status::kRestarted) waiting_.clear();
+  waiting_.add(frame);
+}
+
+void Odometry::leave_map(const SE3d& T_c_w, OdometryOutput& output) {
   for (FinishedKeyframe& keyframe : window_keyframes()) output.finished.push_back(std::move(keyframe));
   place_.camera = window_.intrinsics();
   place_.T_c_w = T_c_w;
   if (tracker_.mean_idepth() > 0) place_.scale = 1.0 / tracker_.mean_idepth();
   window_ = Window();
-  initializer_ = make_initializer();
   tracker_.lose();
   state_ = TrackingState::kInitializing;
-  record_no_pose(TrackingState::kLost, reason + ": starting a new map", output.frame);
   lost_frames_ = 0;
   ++restarts_;
+}
+
+void Odometry::restart(const std::string& reason, const SE3d& T_c_w, OdometryOutput& output) {
+  leave_map(T_c_w, output);
+  initializer_ = make_initializer();
+  waiting_.clear();
+  record_no_pose(TrackingState::kLost, reason + ": starting a new map", output.frame);
 }
 
 }  // namespace ldso

@@ -41,7 +41,7 @@ class Odometry {
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
 
   /// The keyframes still in the window, as they are.
-  std::vector<FinishedKeyframe> window_keyframes() const { return finish_all(window_); }
+  std::vector<FinishedKeyframe> window_keyframes() const;
 
   /// As estimated now; while there is no map, as the last one left it.
   PinholeIntrinsics camera() const { return window_.keyframes.empty() ? place_.camera : window_.intrinsics(); }
@@ -58,9 +58,15 @@ class Odometry {
   /// False if the window cannot take it: it is no longer usable.
   bool make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
                      OdometryOutput& output);
-  void handle_loss(const std::string& reason, OdometryOutput& output);
+  void handle_loss(const std::shared_ptr<const PreparedFrame>& frame, const std::string& reason,
+                   OdometryOutput& output);
+  /// Looks for a new start beside the attempts to find the map again; what succeeds first counts.
+  void try_new_start(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   /// Hands out the window; the next one begins where the camera was last, `T_c_w`, in the same unit.
+  void leave_map(const SE3d& T_c_w, OdometryOutput& output);
   void restart(const std::string& reason, const SE3d& T_c_w, OdometryOutput& output);
+  /// Where the camera was last seen.
+  SE3d last_pose() const { return tracker_.T_last_ref() * newest().state.T_c_w(); }
   std::unique_ptr<Initializer> make_initializer() const;
   Keyframe& newest() const { return *window_.keyframes.back(); }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double kStepsPerFrame = 0.15;
 constexpr int kFrames = 60;
 /// More failures in a row than the odometry forgives.
-constexpr int kManyLost = 25;
+constexpr int kManyLost = 95;
 
 using FramePointer = std::shared_ptr<const PreparedFrame>;
 

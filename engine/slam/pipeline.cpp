@@ -128,7 +128,10 @@ void Pipeline::replace(FrameRecord late) {
 void Pipeline::note_change(const FrameRecord& frame) {
   if (odometry_.restarts() > restarts_) {
     restarts_ = odometry_.restarts();
-    log_to(log_, LogLevel::kWarning, frame_name(frame) + ": " + frame.reason);
+    const bool is_tracked = frame.state == TrackingState::kTracked;
+    log_to(log_, LogLevel::kWarning,
+           frame_name(frame) + ": " + (is_tracked ? "the lost map is left and a new one begins" : frame.reason));
+    if (is_tracked) result_.initializations.push_back(frame.frame_id);
   } else if (frame.state == TrackingState::kLost && state_ == TrackingState::kTracked) {
     log_to(log_, LogLevel::kWarning, frame_name(frame) + " is lost: " + frame.reason);
   } else if (frame.state == TrackingState::kTracked && state_ == TrackingState::kLost) {

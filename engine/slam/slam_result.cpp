@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cstddef>
 #include <unordered_map>
 
 #include "geometry/rolling_shutter.h"
 #include "ldso/slam.h"
+#include "slam/map_parts.h"
 
 namespace ldso {
 namespace {
@@ -25,10 +27,18 @@ SE3d compose(const Sim3d& S_world_keyframe, const SE3d& T_keyframe_frame) {
 
 }  // namespace
 
-std::vector<TimedPose> SlamResult::trajectory(Correction correction) const {
+int SlamResult::parts(Correction correction) const {
+  const std::vector<int> parts = map_parts(*this, correction);
+  return parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;
+}
+
+std::vector<TimedPose> SlamResult::trajectory(Correction correction, int part) const {
+  const std::vector<int> parts = map_parts(*this, correction);
   const std::vector<Sim3d> poses_of_keyframes = keyframe_poses(*this, correction);
   std::unordered_map<std::int64_t, std::size_t> index_of;  // Only looked up in, so its order does not matter.
-  for (std::size_t i = 0; i < keyframes.size(); ++i) index_of[keyframes[i].frame_id] = i;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (parts[i] == part) index_of[keyframes[i].frame_id] = i;
+  }
   std::vector<TimedPose> poses;
   for (const FrameRecord& frame : frames) {
     const bool tracked = frame.state == TrackingState::kTracked;
@@ -43,20 +53,24 @@ std::vector<TimedPose> SlamResult::trajectory(Correction correction) const {
   return poses;
 }
 
-std::vector<TimedPose> SlamResult::keyframe_trajectory(Correction correction) const {
+std::vector<TimedPose> SlamResult::keyframe_trajectory(Correction correction, int part) const {
+  const std::vector<int> parts = map_parts(*this, correction);
   const std::vector<Sim3d> poses_of_keyframes = keyframe_poses(*this, correction);
   std::vector<TimedPose> poses;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (parts[i] != part) continue;
     const SE3d T = compose(poses_of_keyframes[i], SE3d());
     if (is_finite(T)) poses.push_back({keyframes[i].frame_id, keyframes[i].timestamp, T});
   }
   return poses;
 }
 
-std::vector<WorldPoint> SlamResult::points(Correction correction) const {
+std::vector<WorldPoint> SlamResult::points(Correction correction, int part) const {
+  const std::vector<int> parts = map_parts(*this, correction);
   const std::vector<Sim3d> poses_of_keyframes = keyframe_poses(*this, correction);
   std::vector<WorldPoint> points;
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (parts[i] != part) continue;
     for (const MapPoint& point : keyframes[i].points) {
       const Eigen::Vector3d position = poses_of_keyframes[i] * position_in_camera(camera, keyframes[i].readout, point);
       if (!(point.idepth > 0) || !position.allFinite()) continue;

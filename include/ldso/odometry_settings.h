@@ -117,6 +117,7 @@ struct TrackingSettings {
   double good_ratio = 1.5;
   double lost_rmse = 30;
   double least_in_view = 0.05;
+  double least_agreement = 0.5;
 
   static constexpr auto fields() {
     using S = TrackingSettings;
@@ -129,6 +130,9 @@ struct TrackingSettings {
               in_range(1, 255), in_unit("grey levels")),
         field("least_in_view", &S::least_in_view, "Share of the map's points that must fall into the image.",
               in_range(0, 1), kExpert),
+        field("least_agreement", &S::least_agreement,
+              "Correlation of the contrast across the map's edges with what the image shows there, at least.",
+              in_range(-1, 1), kMeasured, kExpert),
     };
   }
 };

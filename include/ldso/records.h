@@ -51,6 +51,9 @@ struct KeyframeConstraint {
 /// A keyframe as it left the sliding window: final pose and points.
 struct KeyframeUpdate {
   std::int64_t frame_id = 0;
+  /// Of the run: it grows by one each time the map is lost and a new one begins. What one segment says of places has
+  /// nothing to do with what another says, unless a loop joins them.
+  int segment = 0;
   double timestamp = 0;
   SE3d T_world_camera;
   ReadoutMotion readout = ReadoutMotion::Zero();

@@ -65,16 +65,21 @@ struct SlamResult {
   int skipped = 0;   ///< Frames that could not be used.
   std::map<std::string, StageTime> stage_times;
 
-  /// Poses of all frames that have one, in the order of `frames`: that of its reference keyframe, as finally
+  /// Parts of the map that share no coordinates: each map that was begun after a loss, but for those that a loop has
+  /// joined to another. 0 is the part with the most keyframes, the others follow in the order of time. 0 parts if there
+  /// is no keyframe.
+  int parts(Correction correction = Correction::kLoops) const;
+
+  /// Poses of all frames of a part that have one, in the order of `frames`: that of its reference keyframe, as finally
   /// estimated, times its own relative to it. A frame without a known keyframe or with a pose that is not finite has
   /// none; the first frame of a map has that of the keyframe it became.
-  std::vector<TimedPose> trajectory(Correction correction = Correction::kLoops) const;
+  std::vector<TimedPose> trajectory(Correction correction = Correction::kLoops, int part = 0) const;
 
-  /// Poses of the keyframes, in their order.
-  std::vector<TimedPose> keyframe_trajectory(Correction correction = Correction::kLoops) const;
+  /// Poses of the keyframes of a part, in their order.
+  std::vector<TimedPose> keyframe_trajectory(Correction correction = Correction::kLoops, int part = 0) const;
 
-  /// All points with a positive, finite inverse depth.
-  std::vector<WorldPoint> points(Correction correction = Correction::kLoops) const;
+  /// All points of a part with a positive, finite inverse depth.
+  std::vector<WorldPoint> points(Correction correction = Correction::kLoops, int part = 0) const;
 };
 
 /// Monocular direct SLAM, one image at a time. The same images and settings give the same bits, whatever

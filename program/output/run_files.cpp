@@ -62,10 +62,29 @@ std::vector<std::string> result_names() {
           kRunJson,         kLoopPictureFolder};
 }
 
+/// Files of segments beyond the first that have names of their own: more maps than that are not worth keeping.
+constexpr std::size_t kMostSegments = 50;
+
 std::vector<std::string> all_names() {
   std::vector<std::string> names = result_names();
+  for (std::size_t i = 0; i < kMostSegments; ++i) {
+    names.push_back(segment_name("trajectory", i, ".txt"));
+    names.push_back(segment_name("map", i, ".ply"));
+  }
   names.insert(names.end(), {kCameraName, kBetterCameraName});
   return names;
+}
+
+/// What no loop has joined to the main map.
+void write_segments(OutputFolder& out, const RunSummary& summary) {
+  for (std::size_t i = 0; i < kMostSegments; ++i) {
+    const std::string trajectory = segment_name("trajectory", i, ".txt"), map = segment_name("map", i, ".ply");
+    out.remove(trajectory);
+    out.remove(map);
+    if (i >= summary.segments.size()) continue;
+    write_tum_trajectory(out.file(trajectory), summary.segments[i].trajectory);
+    write_ply(out.file(map), ply_points(summary.segments[i].points));
+  }
 }
 
 /// What run.json says of a run; null if there is none that ldso wrote.
@@ -131,6 +150,7 @@ void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti) {
   out.remove("trajectory_kitti.txt");
   if (kitti) write_kitti_poses(out.file("trajectory_kitti.txt"), summary.trajectory);
   write_ply(out.file("map.ply"), ply_points(summary.points));
+  write_segments(out, summary);
   write_loop_files(out, summary);
   write_picture(out, summary);
   write_recording(out.file(kRecordingName), summary.recording);

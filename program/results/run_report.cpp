@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -179,7 +180,47 @@ std::string loops_text(const RunSummary& summary) {
                      static_cast<long long>(candidates - closed));
 }
 
+Json segments_json(const RunSummary& summary) {
+  Json segments = Json::array();
+  for (std::size_t i = 0; i < summary.segments.size(); ++i) {
+    const RunSegment& segment = summary.segments[i];
+    segments.push_back({{"trajectory", segment_name("trajectory", i, ".txt")},
+                        {"map", segment_name("map", i, ".ply")},
+                        {"frames", segment.posed.size()},
+                        {"first", segment.posed.empty() ? Json() : Json(segment.posed.front())},
+                        {"last", segment.posed.empty() ? Json() : Json(segment.posed.back())},
+                        {"points", segment.points.size()}});
+  }
+  return segments;
+}
+
+std::string segments_text(const RunSummary& summary) {
+  std::string text;
+  for (std::size_t i = 0; i < summary.segments.size(); ++i) {
+    const std::vector<std::int64_t>& posed = summary.segments[i].posed;
+    if (posed.empty()) continue;
+    text += format_text("segment %zu      frames %lld to %lld are a map of their own, which no loop joined to the first: %s\n",
+                        i + 2, static_cast<long long>(posed.front()), static_cast<long long>(posed.back()),
+                        segment_name("trajectory", i, ".txt").c_str());
+  }
+  return text;
+}
+
+/// By frame id: why a frame with a pose is not in the main trajectory.
+std::unordered_map<std::int64_t, std::string> elsewhere(const RunSummary& summary) {
+  std::unordered_map<std::int64_t, std::string> reasons;
+  for (std::size_t i = 0; i < summary.segments.size(); ++i) {
+    const std::string name = segment_name("trajectory", i, ".txt");
+    for (const std::int64_t id : summary.segments[i].posed) reasons[id] = "its pose is in " + name;
+  }
+  return reasons;
+}
+
 }  // namespace
+
+std::string segment_name(const std::string& stem, std::size_t index, const std::string& extension) {
+  return stem + "_segment_" + std::to_string(index + 2) + extension;
+}
 
 void collect_results(RunSummary& summary) {
   const SlamResult& result = summary.run.result;
@@ -188,17 +229,28 @@ void collect_results(RunSummary& summary) {
   for (const TimedPose& pose : poses) summary.posed.push_back(pose.frame_id);
   summary.keyframes = stamped(result.keyframe_trajectory());
   summary.points = result.points();
+  for (int part = 1; part < result.parts(); ++part) {
+    RunSegment segment;
+    const std::vector<TimedPose> of_part = result.trajectory(Correction::kLoops, part);
+    segment.trajectory = stamped(of_part);
+    for (const TimedPose& pose : of_part) segment.posed.push_back(pose.frame_id);
+    segment.points = result.points(Correction::kLoops, part);
+    summary.segments.push_back(std::move(segment));
+  }
   summary.odometry_trajectory = stamped(result.trajectory(Correction::kNone));
   summary.odometry_points = result.points(Correction::kNone);
 }
 
 std::vector<UntrackedStretch> untracked_stretches(const RunSummary& summary) {
   const std::unordered_set<std::int64_t> posed(summary.posed.begin(), summary.posed.end());
+  const auto in_segments = elsewhere(summary);
   std::vector<UntrackedStretch> stretches;
   for (const FrameRecord& frame : summary.run.result.frames) {
     if (posed.contains(frame.frame_id)) continue;
-    const std::string reason =
-        frame.state == TrackingState::kTracked ? "its pose or that of its keyframe is not finite" : frame.reason;
+    const auto segment = in_segments.find(frame.frame_id);
+    const std::string reason = segment != in_segments.end()           ? segment->second
+                               : frame.state == TrackingState::kTracked ? "its pose or that of its keyframe is not finite"
+                                                                        : frame.reason;
     const bool continues = !stretches.empty() && stretches.back().last + 1 == frame.frame_id &&
                            without_numbers(stretches.back().reason) == without_numbers(reason);
     if (continues) {
@@ -238,7 +290,7 @@ std::string summary_text(const RunSummary& summary) {
       format_text("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
       format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
                   frames_per_second(summary.run), peak_memory_mb());
-  return text + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
+  return text + segments_text(summary) + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {
@@ -256,6 +308,7 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["error"] = run.error.empty() ? Json() : Json(run.error);
   json["timing"] = timing_json(run);
   json["peak_memory_mb"] = peak_memory_mb();
+  json["segments"] = segments_json(summary);
   json["untracked"] = untracked_json(summary);
   json["warnings"] = summary.warnings;
   json["evaluation"] = evaluation_json(summary.evaluation);

@@ -30,6 +30,13 @@ struct RunEvaluation {
   std::string problem;
 };
 
+/// A part of the map that no loop has joined to the main one: it has coordinates and a unit of its own.
+struct RunSegment {
+  Trajectory trajectory;
+  std::vector<std::int64_t> posed;  ///< Frame ids of the trajectory.
+  std::vector<WorldPoint> points;
+};
+
 /// A finished run with all that its report and its files are made of.
 struct RunSummary {
   std::filesystem::path sequence_path;
@@ -40,7 +47,8 @@ struct RunSummary {
   std::vector<std::int64_t> posed;  ///< Their frame ids.
   Trajectory keyframes;
   std::vector<WorldPoint> points;
-  Trajectory odometry_trajectory;  ///< Before loop closing.
+  std::vector<RunSegment> segments;  ///< But for the main one, which the above is of.
+  Trajectory odometry_trajectory;    ///< Before loop closing.
   std::vector<WorldPoint> odometry_points;
   std::vector<std::string> warnings;
   std::vector<std::uint8_t> recording;  ///< For `ldso view`.
@@ -56,7 +64,10 @@ double peak_memory_mb();
 double frames_per_second(const SequenceRun& run);
 std::int64_t closed_loops(const SlamResult& result);
 
-/// Fills trajectory, keyframes and points from `summary.run`.
+/// Of the file "trajectory_segment_2.txt" (and so on) of `RunSummary::segments[index]`.
+std::string segment_name(const std::string& stem, std::size_t index, const std::string& extension);
+
+/// Fills trajectory, keyframes, points and segments from `summary.run`.
 void collect_results(RunSummary& summary);
 
 std::vector<UntrackedStretch> untracked_stretches(const RunSummary& summary);

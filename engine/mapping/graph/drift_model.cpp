@@ -66,6 +66,7 @@ LoopDiscrepancy discrepancy(const Sim3d& S_current_candidate, const Matrix7d& co
   result.loop_covariance = covariance;
   result.odometry_covariance = chain.covariance;
   result.length = chain.length;
+  result.breaks = chain.breaks;
   return result;
 }
 

@@ -23,6 +23,7 @@ struct LoopDiscrepancy {
   Matrix7d loop_covariance = Matrix7d::Zero();
   std::array<Matrix7d, 3> odometry_covariance = {};  ///< By errors of translation, rotation, scale.
   double length = 0;                                 ///< Of the odometry's way between both [map units].
+  int breaks = 0;                                    ///< Changes of the segment on it: then the odometry says nothing.
 };
 
 /// `covariance`: of x in S_true = exp(x) * S_current_candidate; `chain` leads from the current keyframe to the

@@ -7,6 +7,7 @@
 
 #include "ldso/error.h"
 #include "mapping/graph/loop_kernel.h"
+#include "util/disjoint_sets.h"
 
 namespace ldso {
 namespace {
@@ -14,20 +15,6 @@ namespace {
 std::string name_of(std::int64_t id) { return "keyframe " + std::to_string(id); }
 
 /// Disjoint sets with path halving.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parents_(size) { std::iota(parents_.begin(), parents_.end(), 0); }
-
-  std::size_t find(std::size_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parents_[find(a)] = find(b); }
-
- private:
-  std::vector<std::size_t> parents_;
-};
-
 PoseGraphResidual::Vector7d weights_of(const Eigen::Vector3d& variance_factors) {
   const Eigen::Vector3d w = variance_factors.cwiseSqrt().cwiseInverse();
   PoseGraphResidual::Vector7d weights;

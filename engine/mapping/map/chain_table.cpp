@@ -19,6 +19,7 @@ OdometryChain reversed(const OdometryChain& chain) {
   result.S_from_to = chain.S_from_to.inverse();
   result.covariance = carried(result.S_from_to.adjoint(), chain.covariance);
   result.length = chain.length;
+  result.breaks = chain.breaks;
   return result;
 }
 
@@ -37,6 +38,7 @@ ChainTable::ChainTable(const KeyframeMap& map) : from_first_(static_cast<std::si
       chain.covariance = carried(before.S_from_to.adjoint(), step.covariance);
       for (std::size_t k = 0; k < chain.covariance.size(); ++k) chain.covariance[k] += before.covariance[k];
       chain.length = before.length + step.length;
+      chain.breaks = before.breaks + step.breaks;
     }
     last = index;
   }
@@ -52,6 +54,7 @@ OdometryChain ChainTable::between(int from, int to) const {
   for (std::size_t k = 0; k < chain.covariance.size(); ++k) chain.covariance[k] = b.covariance[k] - a.covariance[k];
   chain.covariance = carried(S_from_first.adjoint(), chain.covariance);
   chain.length = b.length - a.length;
+  chain.breaks = b.breaks - a.breaks;
   return chain;
 }
 

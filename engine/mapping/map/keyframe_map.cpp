@@ -45,6 +45,7 @@ int KeyframeMap::add(const KeyframeUpdate& update, std::vector<MapFeature> featu
   }
   MapKeyframe keyframe;
   keyframe.frame_id = update.frame_id;
+  keyframe.segment = update.segment;
   keyframe.T_world_camera = update.T_world_camera;
   keyframe.median_idepth = median_idepth(features);
   keyframe.features = std::move(features);
@@ -125,6 +126,7 @@ OdometryChain KeyframeMap::chain(int from, int to) const {
     }
     S = S * Sim3d(step.T_first_second);
     chain.length += step.T_first_second.translation().norm();
+    chain.breaks += keyframes_[at].segment != keyframes_[it->second].segment;
     at = it->second;
   }
   return chain;

@@ -28,6 +28,7 @@ struct Neighbour {
 
 struct MapKeyframe {
   std::int64_t frame_id = 0;
+  int segment = 0;                    ///< Of the run (KeyframeUpdate).
   SE3d T_world_camera;                ///< Of the odometry.
   std::vector<MapFeature> features;   ///< Described corners.
   std::vector<Neighbour> neighbours;  ///< In the order in which both had left the window.
@@ -40,6 +41,7 @@ struct OdometryChain {
   std::array<Matrix7d, 3> covariance = {};  ///< Of x in S_true = exp(x) * S_from_to: what errors of translation, of
                                             ///< rotation and of scale on the way add to it.
   double length = 0;                        ///< Of the way [map units].
+  int breaks = 0;  ///< Changes of the segment on the way: across them nothing is known, whatever the rest says.
 };
 
 /// Of the features with depth [1 / map unit]; 0 if there are none.

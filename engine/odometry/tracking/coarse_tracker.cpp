@@ -8,6 +8,7 @@
 
 #include "geometry/rolling_shutter.h"
 #include "odometry/state/robust_weight.h"
+#include "odometry/tracking/structure_agreement.h"
 
 namespace ldso {
 namespace {
@@ -38,6 +39,10 @@ constexpr double kMostCutoffFactor = 50;
 constexpr double kLargestLogBrightness = 1.2;
 /// An offset of brightness beyond this is no change of a camera's brightness [grey levels].
 constexpr double kLargestOffset = 200;
+/// Levels, finest first, on which the structure of the images is compared.
+constexpr std::size_t kAgreementLevels = 3;
+/// The correlation of fewer edges may be large by chance.
+constexpr int kLeastEdges = 30;
 /// Fewer points in view determine none of the eight parameters.
 constexpr int kLeastPoints = 10;
 
@@ -89,6 +94,7 @@ void CoarseTracker::set_reference(const Window& window) {
   map_ = make_coarse_depth_map(window);
   camera_ = window.intrinsics();
   take_out_readout(camera_, window.readout(newest), map_);
+  ref_frame_ = newest.frame;
   ref_brightness_ = newest.state.brightness();
   ref_exposure_ = newest.frame->exposure_ms;
 }
@@ -216,6 +222,18 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
   result.good = std::abs(log_factor) < kLargestLogBrightness + std::abs(std::log(frame.exposure_ms / ref_exposure_)) &&
                 std::abs(estimate.brightness.b) < kLargestOffset;
   return result;
+}
+
+double CoarseTracker::agreement(const PreparedFrame& frame, const AlignmentResult& result) const {
+  double best = 0;
+  const std::size_t levels = std::min({kAgreementLevels, map_.levels.size(), frame.pyramid.levels.size()});
+  for (std::size_t level = 0; level < levels; ++level) {
+    const StructureAgreement agreement = structure_agreement(
+        map_.levels[level], ref_frame_->pyramid.levels[level].view(), frame.pyramid.levels[level].view(),
+        level_intrinsics(camera_, static_cast<int>(level)), result.T_new_ref);
+    if (agreement.edges >= kLeastEdges) best = std::max(best, agreement.correlation);
+  }
+  return best;
 }
 
 FrameMotion CoarseTracker::motion(const PreparedFrame& frame, const AlignmentResult& result) const {

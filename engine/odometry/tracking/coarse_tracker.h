@@ -45,6 +45,10 @@ class CoarseTracker {
   /// Pixel motion and brightness change of an aligned frame.
   FrameMotion motion(const PreparedFrame& frame, const AlignmentResult& result) const;
 
+  /// How much of the reference's structure an aligned frame shows: on that of the finer levels where it is most. Blur
+  /// and noise take it from the finest first.
+  double agreement(const PreparedFrame& frame, const AlignmentResult& result) const;
+
   const CoarseDepthMap& depth_map() const { return map_; }
 
  private:
@@ -56,6 +60,7 @@ class CoarseTracker {
   TrackingSettings settings_;
   ThreadPool& pool_;
   CoarseDepthMap map_;
+  std::shared_ptr<const PreparedFrame> ref_frame_;
   PinholeIntrinsics camera_;
   Brightness ref_brightness_;
   double ref_exposure_ = 1;

@@ -53,6 +53,8 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
     tracked.reason = "no motion explains the image";
   } else if (tracked.alignment.in_view < settings_.least_in_view) {
     tracked.reason = "the image shows too little of the map";
+  } else if (aligner_.agreement(*frame, tracked.alignment) < settings_.least_agreement) {
+    tracked.reason = "the image does not show what the map does";
   }
   if (!tracked.reason.empty()) return tracked;
   remember(frame, tracked.alignment, newest);
@@ -112,6 +114,7 @@ AlignmentResult FrameTracker::align_from(const std::vector<SE3d>& starts, const 
     if (!result.good || !(result.rmse() <= settings_.lost_rmse)) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
   }
+  best.good = best.good && aligner_.agreement(frame, best) >= settings_.least_agreement;
   return best;
 }
 
