@@ -16,15 +16,15 @@ constexpr float kSkyAlbedo = 0.9f;
 /// Two ranges of hills one behind the other, paler with distance.
 void hazy_hills(Canvas& canvas, double x0, double y0, double x1, double y1, std::uint64_t seed) {
   const PlacedNoise near_ridge(noise_tiles().natural, 0.8, hash_of(seed, 1)),
-      far_ridge(noise_tiles().cloudy, 1.2, hash_of(seed, 2)), woods(noise_tiles().cloudy, 0.25, hash_of(seed, 3));
+      far_ridge(noise_tiles().cloudy, 1.2, hash_of(seed, 2)), woods(noise_tiles().natural, 0.25, hash_of(seed, 3));
   Random random(seed, 4);
   const double height = y1 - y0, far_top = y0 + random.uniform(0.4, 0.5) * height, near_top = far_top + 0.2 * height;
   canvas.apply(x0, y0, x1, y1, [&](double x, double y, float) {
     const double n = woods.at(x, y);
     const double far = smooth_step(-0.004, 0.004, y - far_top - 0.08 * height * far_ridge.at(x, 0)),
                  near = smooth_step(-0.004, 0.004, y - near_top - 0.06 * height * near_ridge.at(x, 0));
-    const double behind = kSkyAlbedo + far * (0.78 + 0.015 * n - kSkyAlbedo);
-    return behind + near * (0.66 + 0.03 * n - behind);
+    const double behind = kSkyAlbedo + far * (0.78 + 0.02 * n - kSkyAlbedo);
+    return behind + near * (0.66 + 0.05 * n - behind);
   });
 }
 
