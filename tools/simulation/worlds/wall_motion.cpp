@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSlowTime = 10;     ///< [s]
+constexpr double kSlowTime = 5;      ///< [s]
 constexpr double kSlowShare = 0.05;  ///< Of the usual speed.
 constexpr double kSpeedUp = 2;       ///< From the slow to the usual speed [s].
 

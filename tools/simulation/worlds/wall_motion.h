@@ -19,7 +19,7 @@ enum class WallMotion {
   kTurning,   ///< Turns on the spot.
   kStanding,  ///< Nothing moves.
   kOrbit,     ///< On a sphere round the middle of the wall, looking at it.
-  kSlow,      ///< 10 s at a twentieth of the usual speed, then at it, in all directions.
+  kSlow,      ///< 5 s at a twentieth of the usual speed, then at it, in all directions.
 };
 
 /// sideways, forward, turning, standing, orbit or slow; throws Error for another name.

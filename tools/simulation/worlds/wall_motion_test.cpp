@@ -67,17 +67,17 @@ TEST(WallMotion, OrbitKeepsTheMiddleOfTheWallInTheMiddle) {
   EXPECT_GT(extent_of(WallMotion::kOrbit).turned, 0.3);
 }
 
-TEST(WallMotion, SlowCreepsForTenSecondsOnly) {
+TEST(WallMotion, SlowCreepsForFiveSecondsOnly) {
   const auto path = make_wall_motion(WallMotion::kSlow, 1, kDuration);
   const auto speed = [&](double t) {
     return (path->pose(t + 0.01).translation() - path->pose(t).translation()).norm() / 0.01;
   };
-  for (double t = 0; t < 9.9; t += 0.5) EXPECT_LT(speed(t), 0.04) << t;
+  for (double t = 0; t < 4.9; t += 0.5) EXPECT_LT(speed(t), 0.04) << t;
   double fastest = 0;
-  for (double t = 12; t < 20; t += 0.5) fastest = std::max(fastest, speed(t));
+  for (double t = 7; t < 15; t += 0.5) fastest = std::max(fastest, speed(t));
   EXPECT_GT(fastest, 0.3);
   // Nothing jumps where it begins to move.
-  for (double t = 9; t < 13; t += 0.05) EXPECT_LT(std::abs(speed(t + 0.05) - speed(t)), 0.03) << t;
+  for (double t = 4; t < 8; t += 0.05) EXPECT_LT(std::abs(speed(t + 0.05) - speed(t)), 0.03) << t;
 }
 
 TEST(WallMotion, GoesTheOtherWay) {
