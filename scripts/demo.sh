@@ -2,7 +2,7 @@
 # From nothing to a first trajectory: installs what is missing, builds, renders the built-in sequence, runs ldso on
 # it, compares the result with the truth and says where the pictures are.
 #
-#   scripts/demo.sh [--world room|corridor|street|eight] [--frames N] [--seed N] [--fresh]
+#   scripts/demo.sh [--world room|window_room|wall|corridor|street|eight] [--frames N] [--seed N] [--fresh]
 #     --frames N  only the first N frames
 #     --fresh     render the sequence again even if it is there
 # Results: out/demo/ (LDSO_DEMO_OUT changes that).

@@ -30,15 +30,26 @@ struct SimulateArguments {
 };
 
 void add_scene_options(CLI::App& command, SimulateArguments& a) {
-  command.add_option("world", a.recipe.world, "room, corridor, street (a block driven round) or eight (two blocks)")
-      ->check(CLI::IsMember({"room", "corridor", "street", "eight"}))
+  command
+      .add_option("world", a.recipe.world,
+                  "room, window_room (slowly at a window first), wall (one plane), corridor, street (a block driven "
+                  "round) or eight (two blocks)")
+      ->check(CLI::IsMember({"room", "window_room", "wall", "corridor", "street", "eight"}))
       ->required();
   command.add_option("-o,--output", a.output, "Folder to write the sequence to")->required();
   command.add_option("--seed", a.recipe.seed, "Another seed is another world and another way")->capture_default_str();
   command.add_option("--frames", a.recipe.frames, "At most this many frames (0: the whole way)")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--fps", a.recipe.fps, "Frames per second (default: street 10, corridor 20, room 30)")
+  command.add_option("--fps", a.recipe.fps, "Frames per second (default: street 10, corridor 20, room and wall 30)")
       ->check(CLI::PositiveNumber);
+  command
+      .add_option("--style", a.recipe.style,
+                  "Rooms: weak (texture), wallpaper (that repeats) or dark; streets: open (half of the image sky)")
+      ->check(CLI::IsMember({"weak", "wallpaper", "dark", "open"}));
+  command
+      .add_option("--motion", a.recipe.motion,
+                  "Before the wall: sideways (default), forward, turning, standing, orbit or slow (at first)")
+      ->check(CLI::IsMember({"sideways", "forward", "turning", "standing", "orbit", "slow"}));
   command.add_option("--scale", a.recipe.scale, "Size of the street circuit; indoors the part of the way walked")
       ->check(CLI::PositiveNumber);
   command.add_option("--speed", a.recipe.speed, "Speed on streets [m/s]")
@@ -55,7 +66,8 @@ void add_scene_options(CLI::App& command, SimulateArguments& a) {
 }
 
 void add_camera_options(CLI::App& command, SimulateArguments& a) {
-  command.add_option("--lens", a.recipe.lens, "Lens model (default: street pinhole, room radtan, corridor fov)")
+  command
+      .add_option("--lens", a.recipe.lens, "Lens model (default: street pinhole, room and wall radtan, corridor fov)")
       ->check(CLI::IsMember({"pinhole", "radtan", "fov", "kannala-brandt"}));
   command.add_option("--camera", a.camera, "Use the camera of this camera.txt")->check(CLI::ExistingFile);
   command.add_option("--size", a.size, "Image size WIDTHxHEIGHT; the intrinsics are scaled");

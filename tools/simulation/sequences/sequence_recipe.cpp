@@ -11,6 +11,8 @@
 #include "simulation/worlds/corridor_world.h"
 #include "simulation/worlds/room_world.h"
 #include "simulation/worlds/street/street_world.h"
+#include "simulation/worlds/wall_world.h"
+#include "simulation/worlds/window_room_world.h"
 
 namespace ldso::simulation {
 namespace {
@@ -21,11 +23,22 @@ struct Habit {
   double fps;
 };
 
+bool is_street(const std::string& world) { return world == "street" || world == "eight"; }
+bool is_room(const std::string& world) { return world == "room" || world == "window_room"; }
+
 Habit habit_of(const std::string& world) {
-  if (world == "room") return {"radtan", 30};
+  if (is_room(world) || world == "wall") return {"radtan", 30};
   if (world == "corridor") return {"fov", 20};
-  if (world == "street" || world == "eight") return {"pinhole", 10};
-  throw Error("simulate", "there is no world '" + world + "'", "choose room, corridor, street or eight");
+  if (is_street(world)) return {"pinhole", 10};
+  throw Error("simulate", "there is no world '" + world + "'",
+              "choose room, window_room, wall, corridor, street or eight");
+}
+
+RoomStyle room_style_of(const std::string& name) {
+  if (name == "weak") return RoomStyle::kWeak;
+  if (name == "wallpaper") return RoomStyle::kWallpaper;
+  if (name == "dark") return RoomStyle::kDark;
+  return RoomStyle::kUsual;
 }
 
 CameraCalibration scaled(CameraCalibration camera, int width, int height) {
@@ -97,6 +110,12 @@ void check(const SequenceRecipe& recipe) {
   const auto demand = [](bool good, const char* what, const char* remedy) {
     if (!good) throw Error("simulate", what, remedy);
   };
+  const bool room_style = room_style_of(recipe.style) != RoomStyle::kUsual;
+  demand(recipe.style.empty() || (room_style && is_room(recipe.world)) ||
+             (recipe.style == "open" && is_street(recipe.world)),
+         "the world has no such style", "choose weak, wallpaper or dark for rooms, open for streets");
+  demand(recipe.motion.empty() || recipe.world == "wall", "only the wall has a choice of motions",
+         "leave --motion out or choose the world 'wall'");
   demand(recipe.frames >= 0, "the number of frames is negative", "give --frames 0 or more");
   demand(recipe.fps >= 0, "the frame rate is negative", "give --fps above 0");
   demand(recipe.scale > 0 && recipe.scale <= 10, "the scale is out of range", "give --scale within 0..10");
@@ -108,22 +127,33 @@ void check(const SequenceRecipe& recipe) {
   demand(recipe.sensor.read_noise >= 0 && recipe.sensor.shot_noise >= 0, "the noise is negative", "give 0 or more");
 }
 
-World make_world(const SequenceRecipe& recipe, const Trajectory& trajectory, ThreadPool* pool) {
-  if (recipe.world == "street" || recipe.world == "eight") {
-    StreetOptions options;
-    options.seed = recipe.seed;
-    options.texel_scale = recipe.texel_scale;
-    options.size_scale = recipe.scale;
-    options.speed = recipe.speed;
-    options.models = recipe.models;
-    options.figure_of_eight = recipe.world == "eight";
-    return trajectory.empty() ? make_street_world(options, pool) : make_street_world_along(trajectory, options, pool);
-  }
-  IndoorOptions options;
+World make_streets(const SequenceRecipe& recipe, const Trajectory& trajectory, ThreadPool* pool) {
+  StreetOptions options;
   options.seed = recipe.seed;
   options.texel_scale = recipe.texel_scale;
-  options.path_scale = std::min(recipe.scale, 1.0);
-  return recipe.world == "room" ? make_room_world(options, pool) : make_corridor_world(options, pool);
+  options.size_scale = recipe.scale;
+  options.speed = recipe.speed;
+  options.models = recipe.models;
+  options.open = recipe.style == "open";
+  options.figure_of_eight = recipe.world == "eight";
+  return trajectory.empty() ? make_street_world(options, pool) : make_street_world_along(trajectory, options, pool);
+}
+
+World make_world(const SequenceRecipe& recipe, const Trajectory& trajectory, ThreadPool* pool) {
+  if (is_street(recipe.world)) return make_streets(recipe, trajectory, pool);
+  const double path_scale = std::min(recipe.scale, 1.0);
+  if (recipe.world == "wall") {
+    const WallMotion motion = wall_motion_of(recipe.motion.empty() ? "sideways" : recipe.motion);
+    return make_wall_world({recipe.seed, recipe.texel_scale, path_scale, motion}, pool);
+  }
+  RoomOptions options;
+  options.seed = recipe.seed;
+  options.texel_scale = recipe.texel_scale;
+  options.path_scale = path_scale;
+  options.style = room_style_of(recipe.style);
+  if (recipe.world == "room") return make_room_world(options, pool);
+  if (recipe.world == "window_room") return make_window_room_world(options, pool);
+  return make_corridor_world(options, pool);
 }
 
 }  // namespace
@@ -131,7 +161,7 @@ World make_world(const SequenceRecipe& recipe, const Trajectory& trajectory, Thr
 SimulatedSequence make_sequence(const SequenceRecipe& recipe, ThreadPool* pool) {
   check(recipe);
   const Habit habit = habit_of(recipe.world);
-  const bool street = recipe.world == "street" || recipe.world == "eight";
+  const bool street = is_street(recipe.world);
   if (recipe.trajectory && recipe.world != "street") {
     throw Error("simulate", "a trajectory can be driven through streets only", "choose the world 'street'");
   }

@@ -13,7 +13,10 @@
 namespace ldso::simulation {
 
 struct SequenceRecipe {
-  std::string world = "room";  ///< room, corridor, street or eight (streets in a figure of eight).
+  /// room, window_room, wall, corridor, street or eight (streets in a figure of eight).
+  std::string world = "room";
+  std::string style;   ///< Rooms: weak, wallpaper or dark; streets: open; empty: as usual.
+  std::string motion;  ///< Wall: sideways (also if empty), forward, turning, standing, orbit or slow.
   std::uint64_t seed = 1;
   int frames = 0;             ///< At most this many; 0: the whole way.
   int width = 0, height = 0;  ///< Image size [px]; 0: as is usual for the world. Intrinsics scale with it.

@@ -36,6 +36,8 @@ void write_description(const fs::path& path, const SimulatedSequence& sequence, 
   YAML::Emitter out;
   out << YAML::BeginMap;
   entry(out, "world", recipe.world);
+  if (!recipe.style.empty()) entry(out, "style", recipe.style);
+  if (!recipe.motion.empty()) entry(out, "motion", recipe.motion);
   entry(out, "seed", recipe.seed);
   entry(out, "frames", frames);
   entry(out, "path_length_m", sequence.path_length());

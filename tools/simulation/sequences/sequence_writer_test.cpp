@@ -129,6 +129,22 @@ TEST_F(SequenceWriter, DescribesTheWorld) {
   EXPECT_EQ(world["camera"]["model"].as<std::string>(), "FOV");
 }
 
+TEST_F(SequenceWriter, DescribesStyleAndMotionWhereTheyAreChosen) {
+  SequenceRecipe recipe = tiny();
+  recipe.frames = 1;
+  recipe.world = "wall";
+  recipe.motion = "orbit";
+  write_sequence(make_sequence(recipe, nullptr), recipe, folder_, {}, pool_, nullptr);
+  EXPECT_EQ(YAML::LoadFile((folder_ / "world.yaml").string())["motion"].as<std::string>(), "orbit");
+  recipe.world = "room";
+  recipe.motion.clear();
+  recipe.style = "dark";
+  write_sequence(make_sequence(recipe, nullptr), recipe, folder_, {}, pool_, nullptr);
+  const YAML::Node world = YAML::LoadFile((folder_ / "world.yaml").string());
+  EXPECT_EQ(world["style"].as<std::string>(), "dark");
+  EXPECT_FALSE(world["motion"]);
+}
+
 /// A drive up a hill and round a bend, written and read as KITTI poses.
 TEST_F(SequenceWriter, StreetsGrowAlongAGivenTrajectory) {
   fs::create_directories(folder_);

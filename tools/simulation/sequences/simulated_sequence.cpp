@@ -99,7 +99,7 @@ void SimulatedSequence::plan_exposures(const CameraModel& model) {
     sum += means.back();
   }
   const double overall = sum / static_cast<double>(means.size());
-  gain_ = kMeanIrradiance / overall;
+  gain_ = kMeanIrradiance * world_.light / overall;
   exposures_.assign(size(), options_.sensor.exposure_ms);
   if (!options_.sensor.exposure_changes) return;
   const SmoothNoise wander(hash_of(options_.sensor.seed, 0xe), 0.09);

@@ -8,6 +8,7 @@
 
 #include "ldso/error.h"
 #include "simulation/rendering/noise.h"
+#include "simulation/worlds/smooth_step.h"
 
 namespace ldso::simulation {
 namespace {
@@ -218,7 +219,7 @@ class Walk : public CameraPath {
     const Eigen::Vector3d shift(shake(0, t), shake(1, t), shake(2, t)), turn(shake(3, t), shake(4, t), shake(5, t));
     position += options_.shake_translation * shift;
     if (options_.step_frequency > 0) {
-      position.y() += options_.step_height * std::sin(2 * std::numbers::pi * options_.step_frequency * t);
+      position.y() += walking(t) * options_.step_height * std::sin(2 * std::numbers::pi * options_.step_frequency * t);
     }
     const SO3d R = look_along(targets_.at(t) - positions_.at(t));
     return SE3d(R * SO3d::exp(options_.shake_rotation * turn), position);
@@ -226,6 +227,12 @@ class Walk : public CameraPath {
 
  private:
   double shake(int axis, double t) const { return 2.0 * sway_[axis].at(t) + 0.12 * tremor_[axis].at(t); }
+
+  /// 0 before the first step, 1 from a second after it.
+  double walking(double t) const {
+    if (options_.steps_begin <= 0) return 1;
+    return smooth_step(options_.steps_begin, options_.steps_begin + 1, t);
+  }
 
   WalkOptions options_;
   CubicSpline positions_, targets_;

@@ -51,6 +51,7 @@ struct WalkOptions {
   double shake_translation = 0.004;  ///< [m]
   double step_frequency = 0;         ///< Of the steps [Hz]; 0: none.
   double step_height = 0.012;        ///< [m]
+  double steps_begin = 0;            ///< Stands until then, then walks off within a second [s]; 0: walks at once.
   std::uint64_t seed = 1;
 };
 /// Where a hand-held camera is and what it looks at, at a time.

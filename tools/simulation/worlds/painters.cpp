@@ -4,15 +4,11 @@
 #include <numbers>
 
 #include "simulation/rendering/scene.h"
+#include "simulation/worlds/smooth_step.h"
 #include "util/hash.h"
 
 namespace ldso::simulation {
 namespace {
-
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 float tone(std::uint64_t seed, std::uint64_t a, std::uint64_t b) { return unit_interval_float(hash_of(seed, a, b)); }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "simulation/worlds/room_style.h"
 #include "simulation/worlds/world_builder.h"
 
 namespace ldso::simulation {
@@ -14,7 +15,14 @@ struct IndoorOptions {
   double path_scale = 1;   ///< < 1: only the first part of the way.
 };
 
+struct RoomOptions : IndoorOptions {
+  RoomStyle style = RoomStyle::kUsual;
+};
+
 /// About 6 x 5 x 2.8 m; a way of about 16 m in 30 s.
-World make_room_world(const IndoorOptions& options, ThreadPool* pool);
+World make_room_world(const RoomOptions& options, ThreadPool* pool);
+
+/// Share of the usual light that the style leaves.
+double light_of(RoomStyle style);
 
 }  // namespace ldso::simulation

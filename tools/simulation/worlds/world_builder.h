@@ -20,6 +20,7 @@ struct World {
   Scene scene;
   std::unique_ptr<CameraPath> path;
   std::string name;
+  double light = 1;  ///< Share of the usual irradiance; no exposure makes up for the rest.
 };
 
 /// What covers a surface: a texture stretched over it, or a repeating one with a scale and a seeded offset.

@@ -13,10 +13,13 @@ namespace {
 /// Streams of random numbers.
 constexpr std::uint64_t kCarModels = 2, kSignModels = 3;
 
+constexpr double kOpenSpacing = 4;  ///< Trees in the open stand so many times as far apart.
+
 }  // namespace
 
 void StreetFurniture::furnish(int side) {
   double next_lamp = random_.uniform(5, 20), next_tree = random_.uniform(3, 12), next_sign = random_.uniform(8, 30);
+  const double tree_spacing = options_.open ? kOpenSpacing : 1;
   double next_car = random_.uniform(2, 12), next_hedge = 1, next_small = 4;
   for (double s = 1; s < site_.length() - 1; s += 0.5) {
     if (s >= next_car) {
@@ -29,7 +32,7 @@ void StreetFurniture::furnish(int side) {
     }
     if (s >= next_tree) {
       tree(s, side);
-      next_tree = s + random_.uniform(9, 30);
+      next_tree = s + tree_spacing * random_.uniform(9, 30);
     }
     if (s >= next_sign) {
       sign(s, side);

@@ -16,6 +16,7 @@ struct StreetOptions {
   /// Houses, cars and signs come in so many models each, again and again: a trap for place recognition. 0: every one is
   /// its own.
   int models = 0;
+  bool open = false;  ///< Few houses, far from the road, and few trees: about half of the image is sky.
 };
 
 }  // namespace ldso::simulation

@@ -30,7 +30,9 @@ class Town {
 
   Scene build(ThreadPool* pool) {
     for (const int side : {1, -1}) row_of_houses(side);
-    for (const int side : {1, -1}) second_row(side);
+    if (!options_.open) {
+      for (const int side : {1, -1}) second_row(side);
+    }
     for (const int side : {1, -1}) furniture_.furnish(side);
     add_street_ground(builder_.scene(), site_.map(), site_.terrain(), 0.025 * options_.texel_scale, 0,
                       hash_of(options_.seed, 0x9), pool);
@@ -48,6 +50,7 @@ class Town {
         continue;
       }
       s += *used;
+      if (options_.open) s += random_.uniform(60, 140);
       const double kind = random_.uniform();
       if (kind < 0.55) s += random_.uniform(0.05, 0.8);
       if (kind >= 0.55 && kind < 0.86) s += random_.uniform(2.5, 6.5);
@@ -59,7 +62,8 @@ class Town {
   std::optional<double> place_house(double s, int side) {
     const ModelScope model(random_, options_.models, hash_of(options_.seed, kHouseModels));
     double width = random_.uniform(8, 15), depth = random_.uniform(8, 12);
-    const double setback = random_.uniform(kPavementEdge + 0.1, kPavementEdge + (random_.chance(0.3) ? 4.0 : 1.2));
+    double setback = random_.uniform(kPavementEdge + 0.1, kPavementEdge + (random_.chance(0.3) ? 4.0 : 1.2));
+    if (options_.open) setback += random_.uniform(15, 40);
     for (int attempt = 0; attempt < 3; ++attempt, width *= 0.75, depth *= 0.75) {
       const RoadPoint& p = site_.point_at(s + 0.5 * width);
       const Plot plot{site_.beside(p, side * (setback + 0.5 * depth)), {0.5 * width, 0.5 * depth}, p.heading};
