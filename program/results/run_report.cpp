@@ -199,9 +199,10 @@ std::string segments_text(const RunSummary& summary) {
   for (std::size_t i = 0; i < summary.segments.size(); ++i) {
     const std::vector<std::int64_t>& posed = summary.segments[i].posed;
     if (posed.empty()) continue;
-    text += format_text("segment %zu      frames %lld to %lld are a map of their own, which no loop joined to the first: %s\n",
-                        i + 2, static_cast<long long>(posed.front()), static_cast<long long>(posed.back()),
-                        segment_name("trajectory", i, ".txt").c_str());
+    text += format_text(
+        "segment %zu      frames %lld to %lld are a map of their own, which no loop joined to the first: %s\n", i + 2,
+        static_cast<long long>(posed.front()), static_cast<long long>(posed.back()),
+        segment_name("trajectory", i, ".txt").c_str());
   }
   return text;
 }
@@ -248,9 +249,10 @@ std::vector<UntrackedStretch> untracked_stretches(const RunSummary& summary) {
   for (const FrameRecord& frame : summary.run.result.frames) {
     if (posed.contains(frame.frame_id)) continue;
     const auto segment = in_segments.find(frame.frame_id);
-    const std::string reason = segment != in_segments.end()           ? segment->second
-                               : frame.state == TrackingState::kTracked ? "its pose or that of its keyframe is not finite"
-                                                                        : frame.reason;
+    const std::string reason = segment != in_segments.end() ? segment->second
+                               : frame.state == TrackingState::kTracked
+                                   ? "its pose or that of its keyframe is not finite"
+                                   : frame.reason;
     const bool continues = !stretches.empty() && stretches.back().last + 1 == frame.frame_id &&
                            without_numbers(stretches.back().reason) == without_numbers(reason);
     if (continues) {
@@ -290,7 +292,8 @@ std::string summary_text(const RunSummary& summary) {
       format_text("map            %zu keyframes, %zu points\n", summary.keyframes.size(), summary.points.size()) +
       format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
                   frames_per_second(summary.run), peak_memory_mb());
-  return text + segments_text(summary) + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) + evaluation_text(summary);
+  return text + segments_text(summary) + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) +
+         evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {

@@ -14,7 +14,6 @@ namespace {
 
 std::string name_of(std::int64_t id) { return "keyframe " + std::to_string(id); }
 
-/// Disjoint sets with path halving.
 PoseGraphResidual::Vector7d weights_of(const Eigen::Vector3d& variance_factors) {
   const Eigen::Vector3d w = variance_factors.cwiseSqrt().cwiseInverse();
   PoseGraphResidual::Vector7d weights;
