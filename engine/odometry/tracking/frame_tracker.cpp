@@ -5,12 +5,16 @@
 
 #include "odometry/tracking/frame_record.h"
 #include "odometry/tracking/motion_hypotheses.h"
+#include "odometry/tracking/structure_agreement.h"
 
 namespace ldso {
 namespace {
 
 /// No image is read for longer than until the next; timestamps may waver.
 constexpr double kLargestReadoutShare = 2;
+
+/// Level on which an image that shows anything has gradients.
+constexpr std::size_t kStructureLevel = 2;
 
 /// Zero if the times say nothing.
 SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
@@ -43,6 +47,11 @@ void FrameTracker::assume_even_motion(const Window& window) {
 
 TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest) {
   TrackedFrame tracked;
+  const std::size_t coarse = std::min(kStructureLevel, frame->pyramid.levels.size() - 1);
+  if (!has_structure(frame->pyramid.levels[coarse].view())) {
+    tracked.reason = "nothing is to be seen in the image";
+    return tracked;
+  }
   tracked.alignment = align(*frame);
   if (!tracked.alignment.good && !last_rmse_.empty()) {
     // The image may have got worse all of a sudden (blur): compare hypotheses with each other only.

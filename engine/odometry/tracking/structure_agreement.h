@@ -25,4 +25,8 @@ StructureAgreement structure_agreement(const AlignmentPoints& points, const Imag
                                        const ImageView<const Texel>& image, const PinholeIntrinsics& camera,
                                        const SE3d& T_image_reference);
 
+/// Whether there is anything to be seen: black, white and covered lenses show but noise. `image`: a coarse level, on
+/// which noise has been averaged out.
+bool has_structure(const ImageView<const Texel>& image);
+
 }  // namespace ldso

@@ -71,6 +71,18 @@ TEST_F(StructureAgreementTest, AnImageWithoutStructureShowsNothing) {
   EXPECT_EQ(agreement(black, SE3d()).correlation, 0);
 }
 
+TEST_F(StructureAgreementTest, NoiseIsNoStructure) {
+  EXPECT_TRUE(has_structure(reference_->pyramid.levels[2].view()));
+  Image<Texel> noise(40, 30);
+  for (int y = 0; y < noise.height(); ++y) {
+    for (int x = 0; x < noise.width(); ++x) {
+      const float sign = (x / 2 + y / 2) % 2 == 0 ? 1.0f : -1.0f;
+      noise(x, y) = {100, 0.2f * sign, -0.2f * sign, 1};
+    }
+  }
+  EXPECT_FALSE(has_structure(noise.view()));
+}
+
 TEST_F(StructureAgreementTest, WhatIsOutOfViewSaysNothing) {
   SE3d::Tangent turn = SE3d::Tangent::Zero();
   turn[4] = 3;
