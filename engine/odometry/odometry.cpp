@@ -8,6 +8,9 @@
 namespace ldso {
 namespace {
 
+/// Times in a row that an image may come again. No camera takes the same image twice: a driver that has no new one
+/// hands out the last, and after more than this it hangs while the camera may move.
+constexpr int kMostRepeats = 5;
 /// Frames that may fail in a row before a new start is looked for beside the old map.
 constexpr int kForgivenFrames = 3;
 /// Frames that may fail in a row before the map is given up though no other has begun: three seconds of most cameras.
@@ -43,12 +46,21 @@ OdometryOutput Odometry::process(const std::shared_ptr<const PreparedFrame>& fra
   if (state_ == TrackingState::kInitializing) {
     initialize(frame, output);
   } else if (state_ == TrackingState::kTracked && tracker_.is_repeated(*frame)) {
-    tracker_.repeat(*frame);
-    tracker_.record_last(newest(), output.frame);
+    repeat(*frame, output);
   } else {
+    repeats_ = 0;
     track(frame, output);
   }
   return output;
+}
+
+void Odometry::repeat(const PreparedFrame& frame, OdometryOutput& output) {
+  tracker_.repeat(frame);
+  if (++repeats_ > kMostRepeats) {
+    record_no_pose(TrackingState::kLost, "the image is frozen", output.frame);
+  } else {
+    tracker_.record_last(newest(), output.frame);
+  }
 }
 
 void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output) {

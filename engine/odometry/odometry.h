@@ -54,6 +54,8 @@ class Odometry {
   void initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   /// The initializer is ready: a window of its first frame and this one.
   void start_map(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
+  /// The last tracked image has come once more.
+  void repeat(const PreparedFrame& frame, OdometryOutput& output);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   /// False if the window cannot take it: it is no longer usable.
   bool make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
@@ -84,6 +86,7 @@ class Odometry {
   KeyframeMaker keyframe_maker_;
   Window window_;
   int lost_frames_ = 0;  ///< In a row.
+  int repeats_ = 0;      ///< Of the last tracked image, in a row.
   int keyframes_ = 0;
   int restarts_ = 0;
 };

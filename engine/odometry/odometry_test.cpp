@@ -149,6 +149,16 @@ TEST_F(OdometryTest, FollowsTheCamera) {
   EXPECT_NEAR(second / first, 1, 0.1);
 }
 
+TEST_F(OdometryTest, AFrozenImageHasNoPoseAfterAWhile) {
+  Odometry odometry = make();
+  int next = initialize(odometry);
+  for (int i = 0; i < 10; ++i) show(odometry, next++);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(show(odometry, next - 1).frame.state, TrackingState::kTracked) << i;
+  for (int i = 0; i < 5; ++i) expect_no_pose(show(odometry, next - 1).frame);
+  EXPECT_EQ(show(odometry, next).frame.state, TrackingState::kTracked);
+  EXPECT_EQ(odometry.restarts(), 0);
+}
+
 TEST_F(OdometryTest, AShortLossIsForgiven) {
   Odometry odometry = make();
   int next = initialize(odometry);
