@@ -227,7 +227,7 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
 double CoarseTracker::agreement(const PreparedFrame& frame, const AlignmentResult& result) const {
   double best = 0;
   const std::size_t levels = std::min({kAgreementLevels, map_.levels.size(), frame.pyramid.levels.size()});
-  for (std::size_t level = 0; level < levels; ++level) {
+  for (std::size_t level = 0; level < levels && best < settings_.least_agreement; ++level) {
     const StructureAgreement agreement = structure_agreement(
         map_.levels[level], ref_frame_->pyramid.levels[level].view(), frame.pyramid.levels[level].view(),
         level_intrinsics(camera_, static_cast<int>(level)), result.T_new_ref);
