@@ -16,10 +16,9 @@ run_fault() {
   echo "$name: $(grep -E '^warning|^loops|^ATE' "$WORK/log" | tr '\n' ';')"
   expect_true "the ATE is that of an undisturbed run" \
     "$(json "$WORK/out_$name/run.json" "['evaluation']['ate_m']['rmse']") < 2 * $undisturbed"
-  missing=$(($(frames "$WORK/$name") - $(poses "$WORK/out_$name/trajectory.txt")))
+  missing=$(($(poses "$WORK/$name/times.txt") - $(poses "$WORK/out_$name/trajectory.txt")))
   expect_true "few poses are missing: $missing" "$missing <= $2"
 }
-frames() { awk '!/^#/ && NF { n++ } END { print n }' "$1/times.txt"; }
 
 expect_exit 0 run "$SEQUENCE" -o "$WORK/undisturbed" --set self_calibration.enabled=false
 expect_json "$WORK/undisturbed/run.json" "['counts']['restarts']" 0
@@ -31,12 +30,7 @@ run_fault cut 20
 
 reorder_sequence "$SEQUENCE" "$WORK/dark" '[*range(n)]' $interval truth
 for ((i = 200; i < 215; i++)); do
-  image=$(own_image "$WORK/dark" "$i")
-  python3 -c "import struct, sys, zlib
-def chunk(kind, data): return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
-rows = b''.join(b'\\0' + b'\\2' * 320 for _ in range(240))
-open(sys.argv[1], 'wb').write(b'\\x89PNG\\r\\n\\x1a\\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', 320, 240, 8, 0, 0, 0, 0))
-                              + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))" "$image"
+  grey_image "$(own_image "$WORK/dark" "$i")" 320 240 2
 done
 run_fault dark 35
 awk -v from=200 -v to=214 '!/^#/ && NF && $1 > (from - 0.5) * 0.0666666667 && $1 < (to + 0.5) * 0.0666666667 { n++ }

@@ -45,6 +45,19 @@ copy_sequence() {
   find "$1" -maxdepth 1 -type f -exec cp {} "$2/" \;
 }
 
+# grey_image PATH WIDTH HEIGHT LEVEL: a PNG file of that one grey level.
+grey_image() {
+  python3 - "$@" <<'PY'
+import struct, sys, zlib
+path, (width, height, level) = sys.argv[1], map(int, sys.argv[2:])
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+rows = b"".join(b"\0" + bytes([level]) * width for _ in range(height))
+open(path, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+                       + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+PY
+}
+
 # own_image SEQUENCE NUMBER: the path of the image, which is no link any more and may be changed.
 own_image() {
   local image

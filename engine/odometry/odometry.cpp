@@ -64,18 +64,20 @@ void Odometry::repeat(const PreparedFrame& frame, OdometryOutput& output) {
 }
 
 void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output) {
-  Initializer::Status status;
-  {
-    const StageTimer timer(times_, "initialize");
-    status = initializer_->add(frame);
-  }
-  if (status == Initializer::Status::kReady) {
+  if (finds_start(frame)) {
     start_map(frame, output);
-    return;
+  } else {
+    record_no_pose(TrackingState::kInitializing, initializer_->reason(), output.frame);
   }
-  record_no_pose(TrackingState::kInitializing, initializer_->reason(), output.frame);
+}
+
+bool Odometry::finds_start(const std::shared_ptr<const PreparedFrame>& frame) {
+  const StageTimer timer(times_, "initialize");
+  const Initializer::Status status = initializer_->add(frame);
+  if (status == Initializer::Status::kReady) return true;
   if (status == Initializer::Status::kRestarted) waiting_.clear();
   waiting_.add(frame);
+  return false;
 }
 
 void Odometry::start_map(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output) {
@@ -161,15 +163,9 @@ void Odometry::try_new_start(const std::shared_ptr<const PreparedFrame>& frame, 
     initializer_ = make_initializer();
     waiting_.clear();
   }
-  const StageTimer timer(times_, "initialize");
-  const Initializer::Status status = initializer_->add(frame);
-  if (status == Initializer::Status::kReady) {
-    leave_map(last_pose(), output);
-    start_map(frame, output);
-    return;
-  }
-  if (status == Initializer::Status::kRestarted) waiting_.clear();
-  waiting_.add(frame);
+  if (!finds_start(frame)) return;
+  leave_map(last_pose(), output);
+  start_map(frame, output);
 }
 
 void Odometry::leave_map(const SE3d& T_c_w, OdometryOutput& output) {

@@ -52,6 +52,8 @@ class Odometry {
 
  private:
   void initialize(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
+  /// Shows the frame to the initializer: whether that is ready. If not, the frame waits for a map.
+  bool finds_start(const std::shared_ptr<const PreparedFrame>& frame);
   /// The initializer is ready: a window of its first frame and this one.
   void start_map(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
   /// The last tracked image has come once more.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/pinhole_projection.h"
+
 namespace ldso {
 namespace {
 
@@ -49,11 +51,11 @@ std::vector<WindowFit> differences(const std::vector<WindowFit>& before, const s
 /// Whether a pixel of a host lies, with its depth, in front of the target and in its image.
 bool is_in_view(const Window& window, const SE3d& T_target_host, const ActivePoint& point) {
   const PinholeIntrinsics camera = window.intrinsics();
-  const Eigen::Vector3d ray((point.u - camera.cx) / camera.fx, (point.v - camera.cy) / camera.fy, 1);
+  const Eigen::Vector3d ray = viewing_ray(camera, {point.u, point.v});
   const Eigen::Vector3d x = T_target_host.rotation() * ray + point.idepth * T_target_host.translation();
   if (!(x.z() > 0)) return false;
-  const double u = camera.fx * x.x() / x.z() + camera.cx, v = camera.fy * x.y() / x.z() + camera.cy;
-  return u >= kBorder && v >= kBorder && u < window.width - kBorder && v < window.height - kBorder;
+  const Eigen::Vector2d pixel = project(camera, x);
+  return pixel.minCoeff() >= kBorder && pixel.x() < window.width - kBorder && pixel.y() < window.height - kBorder;
 }
 
 }  // namespace

@@ -230,7 +230,8 @@ void collect_results(RunSummary& summary) {
   for (const TimedPose& pose : poses) summary.posed.push_back(pose.frame_id);
   summary.keyframes = stamped(result.keyframe_trajectory());
   summary.points = result.points();
-  for (int part = 1; part < result.parts(); ++part) {
+  const int parts = result.parts();
+  for (int part = 1; part < parts; ++part) {
     RunSegment segment;
     const std::vector<TimedPose> of_part = result.trajectory(Correction::kLoops, part);
     segment.trajectory = stamped(of_part);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/pinhole_projection.h"
 #include "image/interpolation.h"
 
 namespace ldso {
@@ -26,11 +27,9 @@ class PixelTransfer {
       : camera_(camera), R_(T.rotation_matrix()), t_(T.translation()) {}
 
   std::optional<Eigen::Vector2f> operator()(double u, double v, double idepth) const {
-    const Eigen::Vector3d ray((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1);
-    const Eigen::Vector3d x = R_ * ray + t_ * idepth;
+    const Eigen::Vector3d x = R_ * viewing_ray(camera_, {u, v}) + t_ * idepth;
     if (!(x.z() > 0)) return std::nullopt;
-    return Eigen::Vector2f(static_cast<float>(camera_.fx * x.x() / x.z() + camera_.cx),
-                           static_cast<float>(camera_.fy * x.y() / x.z() + camera_.cy));
+    return project(camera_, x).cast<float>();
   }
 
  private:

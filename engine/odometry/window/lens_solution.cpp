@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "util/median.h"
+
 namespace ldso {
 namespace {
 
@@ -36,12 +38,6 @@ double distance2(const ScaledWindow& window, const Eigen::VectorXd& z) {
   return score.dot(variance.solve(score)) / std::max(1.0, variance.solve(window.H).trace());
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Sums of the windows, and the directions of the parameters that they determine independently of each other.
 struct Joint {
   Eigen::VectorXd information;  ///< Of each direction.
@@ -71,9 +67,10 @@ double reweight(std::vector<ScaledWindow>& windows, Joint& joint) {
   for (int step = 0; step < kRobustSteps; ++step) {
     std::vector<double> distances;
     for (const ScaledWindow& window : windows) distances.push_back(distance2(window, joint.z));
-    middle = std::max(1.0, median(distances));
+    std::vector<double> in_order = distances;
+    middle = std::max(1.0, upper_median(in_order));
+    const double most = kHuberDistance * kHuberDistance * middle;
     for (std::size_t i = 0; i < windows.size(); ++i) {
-      const double most = kHuberDistance * kHuberDistance * middle;
       windows[i].weight = distances[i] > most ? std::sqrt(most / distances[i]) : 1;
     }
     joint = solve_joint(windows);
