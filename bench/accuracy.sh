@@ -93,19 +93,7 @@ run_once() {  # name folder direction offset
 
 # Median and worst of each sequence and direction; a failed run is worse than any other.
 summarize() {
-  awk -F'\t' '
-    function value(text) { return text == "fail" ? 1e99 : text + 0 }
-    function show(x, format) { return x >= 1e98 ? "fail" : sprintf(format, x) }
-    function sort_values(key, c, n,   i, j, t) {
-      for (i = 1; i <= n; i++) v[i] = data[key, c, i]
-      for (i = 2; i <= n; i++) for (j = i; j > 1 && v[j - 1] > v[j]; j--) { t = v[j]; v[j] = v[j - 1]; v[j - 1] = t }
-    }
-    function median(key, c,   n) {
-      n = count[key]; sort_values(key, c, n)
-      return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
-    }
-    function largest(key, c) { sort_values(key, c, count[key]); return v[count[key]] }
-    function smallest(key, c) { sort_values(key, c, count[key]); return v[1] }
+  awk -F'\t' "$awk_statistics"'
     NR > 1 {
       key = $1 "\t" $2
       if (!(key in count)) order[++keys] = key

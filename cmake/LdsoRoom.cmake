@@ -37,6 +37,7 @@ function(ldso_add_room name)
   target_link_libraries(ldso_${name} PUBLIC ${ROOM_DEPENDS} ${ROOM_LINK}
     PRIVATE $<BUILD_INTERFACE:ldso_warnings> ${ROOM_PRIVATE_LINK})
   set_target_properties(ldso_${name} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(ldso_${name} PROPERTIES UNITY_BUILD ${LDSO_UNITY_BUILD})
   set_property(GLOBAL APPEND PROPERTY LDSO_ROOMS_OF_${LDSO_PART} ldso_${name})
   if(ROOM_COLD)
     target_compile_options(ldso_${name} PRIVATE $<$<CONFIG:Release>:-O1>)

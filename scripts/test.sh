@@ -2,8 +2,8 @@
 # Builds everything and runs all tests: those of the rooms, whole sequences end to end, and the checks of the sources.
 #
 #   scripts/test.sh [--preset P] [--rooms "NAMES"] [--short] [--build-only] [options for ctest, e.g. -R image]
-#     --preset P      release (the default), debug, ci: warnings are errors, clang: the same by Clang, asan: address and
-#                     undefined-behaviour sanitizer, tsan: thread sanitizer
+#     --preset P      release (the default), debug, ci: warnings are errors, asan: address and undefined-behaviour
+#                     sanitizer, clang: both of it by Clang, tsan: thread sanitizer
 #     --rooms "NAMES" only the tests of these rooms, e.g. "util io"; nothing else is built
 #     --short         without the tests that take long: whole sequences with bounds on accuracy, browsers
 #     --build-only    builds and runs nothing

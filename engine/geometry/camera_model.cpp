@@ -16,26 +16,27 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-[[noreturn]] void fail(const std::string& problem, const std::string& remedy) {
+[[noreturn]] void fail_calibration(const std::string& problem, const std::string& remedy) {
   throw Error("camera calibration", problem, remedy);
 }
 
 void require_finite(const char* name, double value) {
-  if (!std::isfinite(value)) fail(std::string(name) + " is not a finite number", "check the calibration file");
+  if (!std::isfinite(value))
+    fail_calibration(std::string(name) + " is not a finite number", "check the calibration file");
 }
 
 void require_positive_focal_length(const char* name, double value) {
   require_finite(name, value);
   if (value <= 0) {
-    fail("focal length " + std::string(name) + " = " + std::to_string(value) + " is not positive",
-         "give it in pixels of the input image");
+    fail_calibration("focal length " + std::string(name) + " = " + std::to_string(value) + " is not positive",
+                     "give it in pixels of the input image");
   }
 }
 
 void validate(const CameraCalibration& c) {
   if (c.width <= 0 || c.height <= 0) {
-    fail("image size " + std::to_string(c.width) + " x " + std::to_string(c.height) + " is not positive",
-         "give width and height of the input image in pixels");
+    fail_calibration("image size " + std::to_string(c.width) + " x " + std::to_string(c.height) + " is not positive",
+                     "give width and height of the input image in pixels");
   }
   require_positive_focal_length("fx", c.fx);
   require_positive_focal_length("fy", c.fy);
@@ -46,8 +47,8 @@ void validate(const CameraCalibration& c) {
     const double omega = c.distortion[0];
     require_finite("omega", omega);
     if (omega < 0 || omega >= std::numbers::pi) {
-      fail("FOV parameter omega = " + std::to_string(omega) + " is not in [0, pi)",
-           "give it in radians; 0 is a pinhole");
+      fail_calibration("FOV parameter omega = " + std::to_string(omega) + " is not in [0, pi)",
+                       "give it in radians; 0 is a pinhole");
     }
     return;
   }
@@ -100,7 +101,7 @@ std::unique_ptr<CameraModel> make_camera_model(const CameraCalibration& calibrat
     case CameraModelKind::kKannalaBrandt:
       return std::make_unique<KannalaBrandtCamera>(calibration);
   }
-  fail("unknown camera model", "use Pinhole, FOV, RadTan or KannalaBrandt");
+  fail_calibration("unknown camera model", "use Pinhole, FOV, RadTan or KannalaBrandt");
 }
 
 }  // namespace ldso

@@ -14,14 +14,15 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-[[noreturn]] void fail(const std::string& problem, const std::string& remedy) {
+[[noreturn]] void fail_alignment(const std::string& problem, const std::string& remedy) {
   throw Error("alignment of two trajectories", problem, remedy);
 }
 
 void require_finite(const Points& points, const char* name) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
-      fail("position " + std::to_string(i) + " of the " + name + " set is not finite", "remove or repair that pose");
+      fail_alignment("position " + std::to_string(i) + " of the " + name + " set is not finite",
+                     "remove or repair that pose");
     }
   }
 }
@@ -61,12 +62,12 @@ bool moves(double variance, const Points& points) {
 
 void require_alignable(const Points& from, const Points& to) {
   if (from.size() != to.size()) {
-    fail("the sets have " + std::to_string(from.size()) + " and " + std::to_string(to.size()) + " positions",
-         "associate them by time first");
+    fail_alignment("the sets have " + std::to_string(from.size()) + " and " + std::to_string(to.size()) + " positions",
+                   "associate them by time first");
   }
   if (from.size() < 3) {
-    fail("only " + std::to_string(from.size()) + " pairs of positions, at least 3 are needed",
-         "check that the timestamps of both overlap, or align with mode none");
+    fail_alignment("only " + std::to_string(from.size()) + " pairs of positions, at least 3 are needed",
+                   "check that the timestamps of both overlap, or align with mode none");
   }
   require_finite(from, "first");
   require_finite(to, "second");
@@ -79,18 +80,19 @@ Sim3d umeyama(const Points& from, const Points& to, AlignmentMode mode) {
   require_alignable(from, to);
   const Moments m = compute_moments(from, to);
   if (!moves(m.variance_from, from) || !moves(m.variance_to, to)) {
-    fail("all positions of one set are the same", "align with mode none");
+    fail_alignment("all positions of one set are the same", "align with mode none");
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& d = svd.singularValues();
   if (mode != AlignmentMode::kScale && d[1] <= 1e-12 * d[0]) {
-    fail("the positions are on a line, the rotation about it is not determined", "align with mode scale or none");
+    fail_alignment("the positions are on a line, the rotation about it is not determined",
+                   "align with mode scale or none");
   }
   // Umeyama's S (eq. 43): the best rotation where the best orthogonal matrix would be a reflection.
   const bool reflection = svd.matrixU().determinant() * svd.matrixV().determinant() < 0;
   const Eigen::Vector3d signs(1, 1, reflection ? -1 : 1);
   const double scale = mode == AlignmentMode::kSe3 ? 1.0 : d.dot(signs) / m.variance_from;
-  if (!(scale > 0)) fail("the sets are uncorrelated, their scale is not determined", "align with mode none");
+  if (!(scale > 0)) fail_alignment("the sets are uncorrelated, their scale is not determined", "align with mode none");
   if (mode == AlignmentMode::kScale) return Sim3d(SO3d(), Eigen::Vector3d::Zero(), scale);
   const SO3d R = SO3d::from_matrix(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
   return Sim3d(R, m.mean_to - scale * (R * m.mean_from), scale);

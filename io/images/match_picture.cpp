@@ -60,7 +60,7 @@ void write_caption(cv::Mat& picture, const std::string& caption) {
   cv::putText(picture, caption, {kMargin, picture.rows - kMargin}, kFont, size, {255, 255, 255}, 1, cv::LINE_AA);
 }
 
-Image<Rgb> to_image(const cv::Mat& picture) {
+Image<Rgb> to_rgb_image(const cv::Mat& picture) {
   Image<Rgb> image(picture.cols, picture.rows);
   for (int y = 0; y < picture.rows; ++y) {
     const auto* row = picture.ptr<cv::Vec3b>(y);
@@ -107,7 +107,7 @@ Image<Rgb> draw_matches(ImageView<const float> left, ImageView<const float> righ
     }
   }
   write_caption(picture, caption);
-  return to_image(picture);
+  return to_rgb_image(picture);
 }
 
 }  // namespace ldso

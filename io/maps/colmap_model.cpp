@@ -20,7 +20,7 @@ struct LensName {
 };
 constexpr std::array<LensName, 4> kLenses{{{"PINHOLE", 0}, {"FOV", 1}, {"OPENCV", 4}, {"OPENCV_FISHEYE", 4}}};
 
-void append(std::string& text, const char* format, double value) {
+void append_number(std::string& text, const char* format, double value) {
   text += format_text(format, value + 0.0);  // Not -0.
 }
 
@@ -43,12 +43,12 @@ std::string images_text(const ColmapModel& model) {
     const Eigen::Quaterniond& q = T.rotation().quaternion();
     const Eigen::Vector3d& t = T.translation();
     text += std::to_string(i + 1);
-    for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) append(text, " %.12g", value);
+    for (const double value : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) append_number(text, " %.12g", value);
     text += " 1 " + image.name + "\n";
     for (std::size_t k = 0; k < image.observations.size(); ++k) {
       const ColmapObservation& seen = image.observations[k];
-      append(text, k == 0 ? "%.2f" : " %.2f", seen.pixel.x() + kHalfPixel);
-      append(text, " %.2f ", seen.pixel.y() + kHalfPixel);
+      append_number(text, k == 0 ? "%.2f" : " %.2f", seen.pixel.x() + kHalfPixel);
+      append_number(text, " %.2f ", seen.pixel.y() + kHalfPixel);
       text += std::to_string(seen.point + 1);
     }
     text += '\n';
@@ -69,7 +69,7 @@ std::string points_text(const ColmapModel& model) {
     const std::string grey = std::string(" ").append(std::to_string(point.intensity));
     text += std::to_string(i + 1);
     for (const double value : {point.position.x(), point.position.y(), point.position.z()})
-      append(text, " %.9g", value);
+      append_number(text, " %.9g", value);
     text.append(grey).append(grey).append(grey).append(" -1");
     for (const TrackElement& element : tracks[i])
       text.append(" ").append(std::to_string(element.image)).append(" ").append(std::to_string(element.observation));
@@ -84,8 +84,8 @@ std::string colmap_camera(const CameraCalibration& camera) {
   const LensName& lens = kLenses.at(static_cast<std::size_t>(camera.model));
   std::string text = std::string(lens.name) + " " + std::to_string(camera.width) + " " + std::to_string(camera.height);
   for (const double value : {camera.fx, camera.fy, camera.cx + kHalfPixel, camera.cy + kHalfPixel})
-    append(text, " %.12g", value);
-  for (std::size_t i = 0; i < lens.distortion; ++i) append(text, " %.12g", camera.distortion[i]);
+    append_number(text, " %.12g", value);
+  for (std::size_t i = 0; i < lens.distortion; ++i) append_number(text, " %.12g", camera.distortion[i]);
   return text;
 }
 

@@ -10,7 +10,7 @@ namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 PinholeIntrinsics camera_of(const Json& json) {
   return {json.at("width"), json.at("height"), json.at("fx"), json.at("fy"), json.at("cx"), json.at("cy")};

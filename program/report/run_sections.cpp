@@ -17,7 +17,7 @@ namespace {
 using html::Cell;
 using Rows = std::vector<std::vector<Cell>>;
 
-constexpr std::size_t kMostRows = 200;
+constexpr std::size_t kMostProblems = 200;
 
 std::string tile(const std::string& name, const std::string& value, const std::string& remark = "") {
   return "<div class=\"tile\">" + html::element("dt", name) + html::element("dd", value) +
@@ -85,7 +85,7 @@ std::string untracked_table(const RunSummary& summary) {
   if (stretches.empty()) return html::element("p", "Every frame has a pose.");
   Rows rows;
   for (const UntrackedStretch& stretch : stretches) {
-    if (rows.size() == kMostRows) break;
+    if (rows.size() == kMostProblems) break;
     rows.push_back({{std::to_string(stretch.first)},
                     {std::to_string(stretch.last)},
                     {std::to_string(stretch.last - stretch.first + 1)},
@@ -102,11 +102,11 @@ std::string untracked_table(const RunSummary& summary) {
 std::string warning_list(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return html::element("p", "There were no warnings.");
   std::string html = html::element("h3", "Warnings") + "<ul>\n";
-  for (std::size_t i = 0; i < std::min(warnings.size(), kMostRows); ++i)
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMostProblems); ++i)
     html += html::element("li", warnings[i]) + "\n";
   html += "</ul>\n";
-  if (warnings.size() > kMostRows)
-    html += html::element("p", format_text("… and %zu more: run.json", warnings.size() - kMostRows), "note");
+  if (warnings.size() > kMostProblems)
+    html += html::element("p", format_text("… and %zu more: run.json", warnings.size() - kMostProblems), "note");
   return warnings.size() > 20 ? html::details(format_text("%zu warnings", warnings.size()), html) : html;
 }
 

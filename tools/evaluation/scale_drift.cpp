@@ -27,7 +27,7 @@ Positions positions_of(const Trajectory& estimate, const Trajectory& truth, cons
 }
 
 /// Root mean square distance from the centroid.
-double spread(const std::vector<Eigen::Vector3d>& points) {
+double spread_of(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) mean += p;
   mean /= static_cast<double>(points.size());
@@ -40,7 +40,8 @@ bool moves(const Positions& part, const Positions& whole) {
   const auto enough = [](double part_spread, double whole_spread) {
     return part_spread > kLeastRelativeSpread * whole_spread;
   };
-  return enough(spread(part.estimate), spread(whole.estimate)) && enough(spread(part.truth), spread(whole.truth));
+  return enough(spread_of(part.estimate), spread_of(whole.estimate)) &&
+         enough(spread_of(part.truth), spread_of(whole.truth));
 }
 
 }  // namespace

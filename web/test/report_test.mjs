@@ -53,9 +53,9 @@ async function testContent(page) {
 }
 
 async function testMap(page) {
-  const shown = await figures(page);
+  const shown = await until(page, 'all trajectories are drawn', (f) =>
+    f.segments.odometry >= 40 && f.segments.trajectory >= 40 && f.segments.truth > 40);
   assert.ok(shown.frames >= 50 && shown.keyframes >= 5 && shown.points > 1000, JSON.stringify(shown));
-  assert.ok(shown.segments.odometry >= 40 && shown.segments.trajectory >= 40 && shown.segments.truth > 40);
   for (const [setting, color] of [['odometry', RED], ['trajectory', YELLOW], ['truth', GREEN]]) {
     for (const other of ['odometry', 'trajectory', 'truth', 'points']) await page.setChecked(`#show-${other}`, other === setting);
     const visible = await pixels(page, color);
@@ -65,8 +65,8 @@ async function testMap(page) {
   }
   for (const setting of ['odometry', 'trajectory', 'truth', 'points']) await page.setChecked(`#show-${setting}`, true);
   await page.evaluate(() => window.ldsoTest.seek(30));
-  const part = await figures(page);
-  assert.ok(part.cutoff === 30 && part.segments.trajectory < shown.segments.trajectory, 'the slider changes nothing');
+  await until(page, 'the slider shortens the trajectory', (f) =>
+    f.cutoff === 30 && f.segments.trajectory < shown.segments.trajectory);
   await page.click('[data-live]');
   await page.click('[data-play]');
   await until(page, 'it plays', (f) => f.cutoff > 3);

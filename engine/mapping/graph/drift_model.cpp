@@ -5,13 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "mapping/graph/loop_kernel.h"
 #include "util/median.h"
 
 namespace ldso {
 namespace {
-
-/// Median of chi squared with seven degrees of freedom.
-constexpr double kMedianChi2 = 6.35;
 
 Matrix7d total_covariance(const LoopDiscrepancy& d, const VarianceFactors& factors) {
   Matrix7d C = factors.loops * d.loop_covariance;
@@ -55,7 +53,7 @@ void improve_loops(std::span<const LoopDiscrepancy> between, double max_factor, 
   for (const LoopDiscrepancy& d : between) chi2.push_back(discrepancy_chi2(d, factors));
   if (chi2.empty()) return;
   const double median = upper_median(chi2);
-  if (std::isfinite(median)) factors.loops = std::clamp(factors.loops * median / kMedianChi2, 1.0, max_factor);
+  if (std::isfinite(median)) factors.loops = std::clamp(factors.loops * median / kMedianChi2OfSeven, 1.0, max_factor);
 }
 
 }  // namespace

@@ -7,9 +7,6 @@
 namespace ldso {
 namespace {
 
-/// Median of chi squared with seven degrees of freedom.
-constexpr double kMedianChi2 = 6.346;
-
 double largest(const std::vector<double>& chi2) {
   return chi2.empty() ? 0 : *std::max_element(chi2.begin(), chi2.end());
 }
@@ -27,7 +24,7 @@ double loop_variance_factor(std::vector<double> chi2) {
   if (chi2.empty()) return 1;
   const auto median = chi2.begin() + static_cast<std::ptrdiff_t>((chi2.size() - 1) / 2);
   std::nth_element(chi2.begin(), median, chi2.end());
-  return std::max(*median / kMedianChi2, 1.0);
+  return std::max(*median / kMedianChi2OfSeven, 1.0);
 }
 
 LoopKernel::LoopKernel(const PoseGraphSettings& settings, const std::vector<double>& chi2, bool graduated)

@@ -12,6 +12,9 @@
 
 namespace ldso {
 
+/// Median of chi squared with seven degrees of freedom, those of a similarity.
+inline constexpr double kMedianChi2OfSeven = 6.346;
+
 /// Half of a loop's squared residual `chi2` under a kernel of that size, and the weight that it puts on the loop.
 double geman_mcclure_cost(double chi2, double kernel_squared);
 double geman_mcclure_weight(double chi2, double kernel_squared);

@@ -17,7 +17,7 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoPose = std::numeric_limits<double>::infinity();
 /// Least squares and new inliers in turn, at most: it ends by itself as soon as that lowers the cost no more.
 constexpr int kRefinements = 10;
 /// Gauss-Newton steps of one least squares, at most: P3P starts near the solution.
@@ -29,14 +29,14 @@ constexpr double kMostConfidence = 1 - 1e-12;
 /// Correspondences that confirm a pose at least: three determine it.
 constexpr int kLeastInliers = 4;
 
-bool is_usable(const PnpCorrespondence& c) {
+bool has_numbers(const PnpCorrespondence& c) {
   return c.point.allFinite() && c.pixel.allFinite() && std::isfinite(c.sigma_px) && c.sigma_px > 0;
 }
 
 /// A pose and how well it explains the correspondences.
 struct Hypothesis {
   SE3d T;
-  double cost = kInfinity;   ///< Sum of truncated squared errors.
+  double cost = kNoPose;     ///< Sum of truncated squared errors.
   std::vector<int> inliers;  ///< Places in the usable correspondences.
 };
 
@@ -51,7 +51,7 @@ class PnpProblem {
   PnpProblem(std::span<const PnpCorrespondence> correspondences, const PinholeIntrinsics& camera, double threshold)
       : correspondences_(correspondences), camera_(camera), threshold_squared_(threshold * threshold) {
     for (int i = 0; i < static_cast<int>(correspondences.size()); ++i) {
-      if (is_usable(correspondences[i])) usable_.push_back(i);
+      if (has_numbers(correspondences[i])) usable_.push_back(i);
     }
   }
 
@@ -74,7 +74,7 @@ class PnpProblem {
       const double error = squared_error(T, at(i));
       if (error <= threshold_squared_) result.inliers.push_back(i);
       result.cost += std::min(error, threshold_squared_);
-      if (!(result.cost < limit)) return {T, kInfinity, {}};
+      if (!(result.cost < limit)) return {T, kNoPose, {}};
     }
     return result;
   }
@@ -98,9 +98,9 @@ class PnpProblem {
 
   double squared_error(const SE3d& T, const PnpCorrespondence& c) const {
     const Eigen::Vector3d p = T * c.point;
-    if (!(p.z() > 0)) return kInfinity;
+    if (!(p.z() > 0)) return kNoPose;
     const double error = (project(camera_, p) - c.pixel).squaredNorm() / (c.sigma_px * c.sigma_px);
-    return std::isnan(error) ? kInfinity : error;
+    return std::isnan(error) ? kNoPose : error;
   }
 
   double cost(const SE3d& T, std::span<const int> inliers) const {

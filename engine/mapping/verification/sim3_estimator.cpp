@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "geometry/levenberg_damping.h"
 #include "geometry/pinhole_projection.h"
 #include "geometry/well_determined.h"
 #include "util/median.h"
@@ -16,7 +17,7 @@ namespace {
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// Squared error that 99 % of all right pixels stay below: chi squared with two degrees of freedom.
 constexpr double kPixelGate = 9.2103;
 /// The same of depths: one degree of freedom.
@@ -31,21 +32,13 @@ constexpr double kBehindCamera = 1e8;
 constexpr double kSmallStep = 1e-6;
 /// The same of the robust start, which needs to be no more than near.
 constexpr double kSmallRobustStep = 1e-3;
-/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal: matches start near the solution.
-constexpr double kFirstDamping = 1e-6;
-/// Damping never falls below this.
-constexpr double kLeastDamping = 1e-12;
-/// With more damping steps move nothing.
-constexpr double kMostDamping = 1e6;
-/// Factor on the damping after a step that lowers the cost.
-constexpr double kDampingDown = 0.1;
-/// Factor on the damping after a step that does not.
-constexpr double kDampingUp = 10;
+/// Matches start near the solution.
+constexpr DampingRule kSim3Damping{.first = 1e-6, .least = 1e-12, .most = 1e6, .down = 0.1, .up = 10};
 
 /// Squared errors of a match in standard deviations; infinite if it has none.
 struct SquaredError {
-  double pixel = kInfinity;
-  double depth = kInfinity;
+  double pixel = kUnbounded;
+  double depth = kUnbounded;
 };
 
 /// How much the two parts of a match count.
@@ -54,7 +47,7 @@ struct Weights {
   double depth = 0;
 };
 
-struct NormalEquations {
+struct Sim3Equations {
   Matrix7d H = Matrix7d::Zero();
   Vector7d b = Vector7d::Zero();
   double cost = 0;
@@ -86,12 +79,12 @@ class Sim3Problem {
     Sim3Term term;
     if (!usable_[i] || !sim3_term(matches_[i], points_[i], camera_, S, false, term)) return {};
     return {term.residual.head<2>().squaredNorm(),
-            matches_[i].idepth > 0 ? term.residual[2] * term.residual[2] : kInfinity};
+            matches_[i].idepth > 0 ? term.residual[2] * term.residual[2] : kUnbounded};
   }
 
   /// In the increment x of exp(x) * S.
-  NormalEquations linearize(const Sim3d& S, std::span<const Weights> weights, double c_squared) const {
-    NormalEquations equations;
+  Sim3Equations linearize(const Sim3d& S, std::span<const Weights> weights, double c_squared) const {
+    Sim3Equations equations;
     for (std::size_t i = 0; i < size(); ++i) {
       if (weights[i].pixel <= 0 || !usable_[i]) continue;
       Sim3Term term;
@@ -110,9 +103,9 @@ class Sim3Problem {
     for (std::size_t i = 0; i < size(); ++i) {
       Sim3Term term;
       if (matches_[i].group < 0 || weights[i].pixel <= 0) continue;
-      if (!sim3_term(matches_[i], points_[i], camera_, S, fuses_depth(weights[i], kInfinity), term)) continue;
-      NormalEquations of_match;
-      add(term, weights[i], kInfinity, of_match);
+      if (!sim3_term(matches_[i], points_[i], camera_, S, fuses_depth(weights[i], kUnbounded), term)) continue;
+      Sim3Equations of_match;
+      add(term, weights[i], kUnbounded, of_match);
       gradients.try_emplace(matches_[i].group, Vector7d::Zero()).first->second += of_match.b;
     }
     return gradients;
@@ -124,7 +117,7 @@ class Sim3Problem {
     return std::isinf(c_squared) && weights.depth > 0;
   }
 
-  static void add(const Sim3Term& term, const Weights& weights, double c_squared, NormalEquations& equations) {
+  static void add(const Sim3Term& term, const Weights& weights, double c_squared, Sim3Equations& equations) {
     const Eigen::Vector3d& r = term.residual;
     const double pixel = r.head<2>().squaredNorm(), depth = r[2] * r[2];
     const double w_pixel = weights.pixel * cauchy_weight(pixel, c_squared);
@@ -146,7 +139,7 @@ bool any_depth(std::span<const Weights> weights) {
 }
 
 /// Takes the scale out of the equations: the reprojection errors say nothing of it.
-void fix_scale(NormalEquations& equations) {
+void fix_scale(Sim3Equations& equations) {
   equations.H.row(6).setZero();
   equations.H.col(6).setZero();
   equations.H(6, 6) = 1;
@@ -159,21 +152,21 @@ int optimize(const Sim3Problem& problem, std::span<const Weights> weights, doubl
   const double small_step = std::isinf(c_squared) ? kSmallStep : kSmallRobustStep;
   const bool has_depth = any_depth(weights);
   const auto linearize_at = [&](const Sim3d& at) {
-    NormalEquations equations = problem.linearize(at, weights, c_squared);
+    Sim3Equations equations = problem.linearize(at, weights, c_squared);
     if (!has_depth) fix_scale(equations);
     return equations;
   };
-  NormalEquations equations = linearize_at(S);
-  double damping = kFirstDamping;
+  Sim3Equations equations = linearize_at(S);
+  LevenbergDamping damping(kSim3Damping);
   int iteration = 0;
-  while (iteration < max_iterations && damping < kMostDamping) {
+  while (iteration < max_iterations && damping.value() < kSim3Damping.most) {
     ++iteration;
     Matrix7d H = equations.H;
-    H.diagonal() *= 1 + damping;
+    damping.damp(H);
     const Vector7d x = H.ldlt().solve(equations.b);
     const Sim3d next = Sim3d::exp(x) * S;
     if (!x.allFinite() || !is_finite(next)) break;
-    NormalEquations next_equations = linearize_at(next);
+    Sim3Equations next_equations = linearize_at(next);
     const bool is_small = x.dot(equations.H * x) < small_step;
     const bool is_better = next_equations.cost < equations.cost;
     if (is_better) {
@@ -181,7 +174,11 @@ int optimize(const Sim3Problem& problem, std::span<const Weights> weights, doubl
       equations = next_equations;
     }
     if (is_small) break;
-    damping = is_better ? std::max(kDampingDown * damping, kLeastDamping) : kDampingUp * damping;
+    if (is_better) {
+      damping.relax();
+    } else {
+      damping.stiffen();
+    }
   }
   return iteration;
 }
@@ -284,7 +281,7 @@ InlierSet refine_on_inliers(const Sim3Problem& problem, const SimilaritySettings
     const bool stays = round > 1 && same_members(set, next);
     set = std::move(next);
     if (stays || set.num_inliers < enough) break;
-    iterations += optimize(problem, set.weights, kInfinity, settings.max_iterations, S);
+    iterations += optimize(problem, set.weights, kUnbounded, settings.max_iterations, S);
   }
   return set;
 }
@@ -325,7 +322,7 @@ double shared_variance_factor(const Sim3Problem& problem, const InlierSet& set, 
 
 /// Information of the inliers; false if it leaves the pose undetermined.
 bool report_information(const Sim3Problem& problem, const InlierSet& set, Sim3Estimate& estimate) {
-  NormalEquations equations = problem.linearize(estimate.S_current_candidate, set.weights, kInfinity);
+  Sim3Equations equations = problem.linearize(estimate.S_current_candidate, set.weights, kUnbounded);
   if (!estimate.scale_determined) fix_scale(equations);
   if (!is_well_determined(equations.H)) return false;
   estimate.shared_variance_factor = shared_variance_factor(problem, set, estimate.S_current_candidate, equations.H);
@@ -384,7 +381,7 @@ std::optional<Sim3Uncertainty> sim3_uncertainty(const Matrix7d& information) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block, Eigen::EigenvaluesOnly);
     return std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
   };
-  return Sim3Uncertainty{largest(0), largest(3), has_scale ? std::sqrt(covariance(6, 6)) : kInfinity};
+  return Sim3Uncertainty{largest(0), largest(3), has_scale ? std::sqrt(covariance(6, 6)) : kUnbounded};
 }
 
 }  // namespace ldso

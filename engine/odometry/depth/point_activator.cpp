@@ -17,7 +17,7 @@ constexpr float kMostSpacing = 12.0f;
 /// Largest block scale of the selection: coarse points need that much more room.
 constexpr float kMostScale = 4.0f;
 /// Points that a thread takes at once.
-constexpr int kChunkSize = 32;
+constexpr int kActivatedAtOnce = 32;
 
 /// Pixel of the newest keyframe where a point of the host lies; false outside of the image.
 bool project(const PatternWarp& warp, float u, float v, float idepth, float& x, float& y) {
@@ -94,7 +94,7 @@ int PointActivator::activate(Window& window) {
   const FramePairs pairs(window);
   const std::vector<Candidate> candidates = choose(window, pairs);
   std::vector<std::optional<ActivePoint>> refined(candidates.size());
-  pool_.for_chunks(static_cast<int>(candidates.size()), kChunkSize, [&](int, int begin, int end) {
+  pool_.for_chunks(static_cast<int>(candidates.size()), kActivatedAtOnce, [&](int, int begin, int end) {
     PointRefiner refiner(window, pairs, tracing_.least_idepth_hessian);
     for (int i = begin; i < end; ++i) refined[i] = refiner.refine(*candidates[i].immature, *candidates[i].host);
   });

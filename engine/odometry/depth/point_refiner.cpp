@@ -8,9 +8,9 @@ namespace ldso {
 namespace {
 
 /// Steps of Levenberg-Marquardt: the interval of tracing is narrow.
-constexpr int kIterations = 3;
+constexpr int kRefinerSteps = 3;
 /// Damping of Levenberg-Marquardt at first.
-constexpr float kFirstLambda = 0.1f;
+constexpr float kFirstRefinerLambda = 0.1f;
 /// A step below this share of the inverse depth changes no pixel.
 constexpr float kSmallStep = 1e-4f;
 
@@ -56,9 +56,9 @@ PointRefiner::Quadratic PointRefiner::evaluate(float idepth, std::vector<Pattern
 
 std::optional<ActivePoint> PointRefiner::refine(const ImmaturePoint& immature, const Keyframe& host) {
   set_targets(immature, host);
-  float idepth = 0.5f * (immature.idepth_min + immature.idepth_max), lambda = kFirstLambda;
+  float idepth = 0.5f * (immature.idepth_min + immature.idepth_max), lambda = kFirstRefinerLambda;
   Quadratic best = evaluate(idepth, best_sums_);
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kRefinerSteps; ++i) {
     if (!(best.H * (1 + lambda) > 0)) break;
     const float step = -best.b / (best.H * (1 + lambda));
     const Quadratic tried = evaluate(idepth + step, sums_);

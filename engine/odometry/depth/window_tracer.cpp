@@ -8,7 +8,7 @@ namespace ldso {
 namespace {
 
 /// Points that a thread takes at once.
-constexpr int kChunkSize = 256;
+constexpr int kTracedAtOnce = 256;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void WindowTracer::trace(Window& window, const PreparedFrame& frame, const SE3d&
     add_readout(T_frame_host, window.camera, window.readout(*keyframe), window.readout_s * velocity, warps.back());
     for (ImmaturePoint& point : keyframe->immature) jobs.push_back({&point, keyframe->index});
   }
-  pool_.for_chunks(static_cast<int>(jobs.size()), kChunkSize, [&](int, int begin, int end) {
+  pool_.for_chunks(static_cast<int>(jobs.size()), kTracedAtOnce, [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) tracer_.trace(*jobs[i].point, warps[jobs[i].host]);
   });
 }

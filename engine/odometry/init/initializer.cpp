@@ -32,7 +32,7 @@ constexpr double kBrightnessOffsetError = 1.0;
 /// Median displacement below which nothing is moving at all [px].
 constexpr double kStill = 1.0;
 
-double median(std::vector<double> values) {
+double median_or_zero(std::vector<double> values) {
   if (values.empty()) return 0;
   return upper_median(values);
 }
@@ -223,11 +223,11 @@ BrightnessTransfer Initializer::brightness_of(const std::vector<PatchMatch>& mat
     if (match.found) gains.push_back(match.gain);
   }
   if (gains.empty()) return {};
-  const double gain = std::clamp(median(std::move(gains)), 0.2, 5.0);
+  const double gain = std::clamp(median_or_zero(std::move(gains)), 0.2, 5.0);
   for (const PatchMatch& match : matches) {
     if (match.found) offsets.push_back(match.mean - gain * match.reference_mean);
   }
-  return {gain, median(std::move(offsets))};
+  return {gain, median_or_zero(std::move(offsets))};
 }
 
 void Initializer::remember(const std::vector<PatchMatch>& matches) {
@@ -252,7 +252,7 @@ Initializer::Motion Initializer::fit(const std::vector<PatchMatch>& matches) {
     pairs.push_back(two_view_match(i, matches[i]));
     flow.push_back((matches[i].position - tracks_[i].pixel).norm());
   }
-  result.median_flow = median(std::move(flow));
+  result.median_flow = median_or_zero(std::move(flow));
   result.rotation = fit_rotation(pairs, camera_, T_newest_first_.rotation());
   T_previous_first_ = T_newest_first_;
   T_newest_first_ = result.rotation.T_second_first;
@@ -278,8 +278,8 @@ void Initializer::fit_motion_with_translation(const std::vector<TwoViewMatch>& p
     idepths.push_back(result.motion.idepth[k]);
   }
   result.inliers = static_cast<double>(idepths.size()) / static_cast<double>(pairs.size());
-  result.median_parallax = median(std::move(parallax));
-  const double scale = median(std::move(idepths));
+  result.median_parallax = median_or_zero(std::move(parallax));
+  const double scale = median_or_zero(std::move(idepths));
   if (result.inliers < settings_.min_inliers || scale < 1e-4) return;
   T_newest_first_ = SE3d(T.rotation(), T.translation() * scale);
   moving_ = T_previous_first_.translation().norm() > 0 || frames_ == 1;
@@ -368,7 +368,7 @@ std::string Initializer::publish(const PreparedFrame& frame, const JointFit& fit
   if (share < settings_.min_good) {
     return format_text("waiting: inverse depths of only %.0f %% of the points are determined", 100 * share);
   }
-  const double parallax_px = median(std::move(parallax));
+  const double parallax_px = median_or_zero(std::move(parallax));
   if (parallax_px < wanted_parallax()) return too_little_parallax(parallax_px);
   const double mean = sum / good;
   result_.first_frame_id = first_->id;

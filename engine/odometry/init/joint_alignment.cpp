@@ -7,35 +7,23 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/levenberg_damping.h"
 #include "util/median.h"
 
 namespace ldso {
 namespace {
 
-/// Points that a thread takes at once.
-constexpr int kChunk = 64;
 /// Steps on each level.
-constexpr int kIterations = 10;
+constexpr int kJointIterations = 10;
+constexpr DampingRule kJointDamping{.first = 1e-2, .least = 1e-6, .most = 1e4, .down = 0.2, .up = 10, .floor = 1e-6};
 /// Of a residual, for the weight of the prior on inverse depths [grey levels].
 constexpr double kPriorNoise = 5.0;
 /// Standard deviation of an inverse depth about its neighbours' median, relative to that.
 constexpr double kPriorSpread = 0.5;
 /// Inverse depths of that median are no nearer to zero than this, for the prior [1 / median depth].
 constexpr double kLeastCentre = 1e-3;
-/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal.
-constexpr double kFirstLambda = 1e-2;
-/// Damping never falls below this.
-constexpr double kLeastLambda = 1e-6;
-/// With more damping steps move nothing: the level is done.
-constexpr double kMostLambda = 1e4;
-/// Factor on the damping after a step that lowers the energy.
-constexpr double kLambdaDown = 0.2;
-/// Factor on the damping after a step that does not.
-constexpr double kLambdaUp = 10;
 /// A step that lowers the energy by a smaller share of it is the last one of the level.
-constexpr double kSmallGain = 1e-4;
-/// Added to the diagonal, far below any information: directions that nothing determines stay where they are.
-constexpr double kDiagonalFloor = 1e-6;
+constexpr double kSmallJointGain = 1e-4;
 /// Standard deviation over the median magnitude of a normal distribution.
 constexpr double kStddevPerMedian = 1.4826;
 /// Residuals are not believed to be less noisy than this [grey levels].
@@ -54,7 +42,7 @@ struct PointElimination {
   JointStep h_dx = JointStep::Zero();
 };
 
-double median(std::vector<double>& values) {
+double median_or_nan(std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   return upper_median(values);
 }
@@ -67,25 +55,26 @@ class Solver {
 
   /// Returns the energy.
   double minimize(JointState& state) {
-    double lambda = kFirstLambda;
-    ReducedSystem now = linearize(state, lambda, points_);
+    LevenbergDamping damping(kJointDamping);
+    ReducedSystem now = linearize(state, damping.value(), points_);
     std::vector<PointElimination> trial_points(points_.size());
-    for (int i = 0; i < kIterations; ++i) {
-      const JointStep step = -damped(now.H, lambda).ldlt().solve(now.b);
+    for (int i = 0; i < kJointIterations; ++i) {
+      JointHessian H = now.H;
+      damping.damp(H);
+      const JointStep step = -H.ldlt().solve(now.b);
       if (!step.allFinite()) break;
       const JointState trial = moved_with_points(state, step);
-      const ReducedSystem next = linearize(trial, lambda, trial_points);
+      const ReducedSystem next = linearize(trial, damping.value(), trial_points);
       if (!(next.energy < now.energy)) {
-        lambda *= kLambdaUp;
-        if (lambda > kMostLambda) break;
-        now = linearize(state, lambda, points_);
+        if (!damping.stiffen()) break;
+        now = linearize(state, damping.value(), points_);
         continue;
       }
-      const bool converged = now.energy - next.energy < kSmallGain * now.energy;
+      const bool converged = now.energy - next.energy < kSmallJointGain * now.energy;
       state = trial;
       now = next;
       std::swap(points_, trial_points);
-      lambda = std::max(kLeastLambda, lambda * kLambdaDown);
+      damping.relax();
       if (converged) break;
     }
     return now.energy;
@@ -93,8 +82,8 @@ class Solver {
 
   ReducedSystem linearize(const JointState& state, double lambda, std::vector<PointElimination>& points) const {
     const int count = level_.points();
-    std::vector<ReducedSystem> partial(ThreadPool::chunk_count(count, kChunk));
-    pool_.for_chunks(count, kChunk, [&](int chunk, int begin, int end) {
+    std::vector<ReducedSystem> partial(ThreadPool::chunk_count(count, kJointPointsAtOnce));
+    pool_.for_chunks(count, kJointPointsAtOnce, [&](int chunk, int begin, int end) {
       for (int i = begin; i < end; ++i) points[i] = eliminate(i, state, lambda, partial[chunk]);
     });
     ReducedSystem sums;
@@ -112,12 +101,6 @@ class Solver {
   }
 
  private:
-  static JointHessian damped(JointHessian H, double lambda) {
-    H.diagonal() *= 1 + lambda;
-    H.diagonal().array() += kDiagonalFloor;
-    return H;
-  }
-
   PointElimination eliminate(int i, const JointState& state, double lambda, ReducedSystem& sums) const {
     const JointPointSystem system = level_.linearize(i, state);
     const double pull = pull_precision(i);
@@ -159,7 +142,7 @@ double direction_stddev(const ReducedSystem& system, const SE3d& T, double noise
   basis.col(1).head<3>() = t.cross(basis.col(0).head<3>()).normalized();
   basis.bottomRightCorner<5, 5>().setIdentity();
   Eigen::Matrix<double, 7, 7> H = basis.transpose() * system.H * basis;
-  H.diagonal().array() += kDiagonalFloor;
+  H.diagonal().array() += kJointDamping.floor;
   const Eigen::Matrix2d covariance = noise * noise * H.inverse().topLeftCorner<2, 2>();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
   return std::sqrt(std::max(0.0, eigen.eigenvalues()[1])) / t.norm();
@@ -172,7 +155,7 @@ void assess(const JointLevel& level, const ReducedSystem& system, JointFit& fit)
   std::vector<double> magnitudes;
   magnitudes.reserve(residuals.size());
   for (const float r : residuals) magnitudes.push_back(std::abs(r));
-  fit.noise = magnitudes.empty() ? 0 : std::max(kLeastNoise, kStddevPerMedian * median(magnitudes));
+  fit.noise = magnitudes.empty() ? 0 : std::max(kLeastNoise, kStddevPerMedian * median_or_nan(magnitudes));
   fit.direction_stddev = direction_stddev(system, fit.state.T_second_first, fit.noise);
   for (int i = 0; i < level.points(); ++i) {
     const double variance = fit.noise * fit.noise / std::max(1e-9, systems[i].h_dd);
@@ -185,7 +168,7 @@ void assess(const JointLevel& level, const ReducedSystem& system, JointFit& fit)
 JointAlignment::JointAlignment(const PreparedFrame& first, const std::vector<Eigen::Vector2d>& pixels,
                                const PinholeIntrinsics& camera, ThreadPool& pool)
     : first_(first), pixels_(pixels), camera_(camera), pool_(pool), neighbours_(pixels.size()) {
-  pool_.for_chunks(static_cast<int>(pixels_.size()), kChunk, [&](int, int begin, int end) {
+  pool_.for_chunks(static_cast<int>(pixels_.size()), kJointPointsAtOnce, [&](int, int begin, int end) {
     std::vector<std::pair<double, int>> distances(pixels_.size());
     for (int i = begin; i < end; ++i) {
       for (std::size_t j = 0; j < pixels_.size(); ++j) {
@@ -206,7 +189,7 @@ std::vector<double> JointAlignment::neighbour_medians(const std::vector<double>&
     for (const int j : neighbours_[i]) {
       if (!std::isnan(values[j])) known.push_back(values[j]);
     }
-    result[i] = median(known);
+    result[i] = median_or_nan(known);
   }
   return result;
 }

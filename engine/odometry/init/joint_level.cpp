@@ -12,8 +12,6 @@
 namespace ldso {
 namespace {
 
-/// Points that a thread takes at once.
-constexpr int kChunk = 64;
 /// A point whose root mean square residual exceeds that of the median point so many times pulls no more: it straddles a
 /// step in depth.
 constexpr double kOutlierFactor = 2.5;
@@ -64,7 +62,7 @@ JointLevel::JointLevel(const PreparedFrame& first, const PreparedFrame& second,
       camera_(level_intrinsics(camera, level)),
       exposure_ratio_(second.exposure_ms / first.exposure_ms),
       hosts_(pixels.size()) {
-  pool.for_chunks(static_cast<int>(pixels.size()), kChunk, [&](int, int begin, int end) {
+  pool.for_chunks(static_cast<int>(pixels.size()), kJointPointsAtOnce, [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       hosts_[i] = make_host(first.pyramid.levels[level], to_level(pixels[i], level));
     }

@@ -16,6 +16,9 @@
 
 namespace ldso {
 
+/// Points that a thread takes at once.
+inline constexpr int kJointPointsAtOnce = 64;
+
 /// I_second = (t_second / t_first) e^a I_first + b, with t the exposures.
 struct JointState {
   SE3d T_second_first;

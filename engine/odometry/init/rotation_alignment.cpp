@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/levenberg_damping.h"
 #include "image/interpolation.h"
 #include "odometry/state/robust_weight.h"
 
@@ -14,7 +15,7 @@ namespace ldso {
 namespace {
 
 /// Gauss-Newton steps on each level.
-constexpr int kIterations = 12;
+constexpr int kRotationIterations = 12;
 /// Levels with more pixels are not used: a prediction need not be precise.
 constexpr std::size_t kMostPixels = 8000;
 /// Share of the pixels that both images have to show.
@@ -27,23 +28,12 @@ constexpr int kSearchStepsX = 4;
 /// So many rotations are tried upward, and as many downward.
 constexpr int kSearchStepsY = 2;
 /// So many of the best rotations that were tried are refined.
-constexpr std::size_t kFinalists = 3;
+constexpr std::size_t kRotationFinalists = 3;
 /// Least z of a ray (x, y, 1) once it is turned: below it the other camera does not see it.
 constexpr float kLeastZ = 0.1f;
-/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal.
-constexpr double kFirstLambda = 1e-3;
-/// Damping never falls below this.
-constexpr double kLeastLambda = 1e-6;
-/// With more damping steps move nothing: the level is done.
-constexpr double kMostLambda = 1e3;
-/// Factor on the damping after a step that lowers the energy.
-constexpr double kLambdaDown = 0.2;
-/// Factor on the damping after a step that does not.
-constexpr double kLambdaUp = 10;
+constexpr DampingRule kTurnDamping{.first = 1e-3, .least = 1e-6, .most = 1e3, .down = 0.2, .up = 10, .floor = 1e-6};
 /// A smaller turn moves no pixel [rad].
 constexpr double kSmallTurn = 1e-5;
-/// Added to the diagonal, far below any information: what nothing determines stays as it is.
-constexpr double kDiagonalFloor = 1e-6;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
@@ -63,7 +53,7 @@ struct RowSums {
 };
 
 /// Normal equations of rotation, gain and offset over all pixels of a level.
-struct NormalEquations {
+struct RotationEquations {
   Matrix5 H = Matrix5::Zero();
   Vector5 b = Vector5::Zero();
   double energy = 0;
@@ -93,8 +83,8 @@ class Level {
       : from_(from), to_(to), camera_(camera) {}
 
   /// Without derivatives if they are not wanted.
-  NormalEquations linearize(const State& state, bool derivatives = true) const {
-    NormalEquations sums;
+  RotationEquations linearize(const State& state, bool derivatives = true) const {
+    RotationEquations sums;
     const Eigen::Matrix3f R = state.rotation.matrix().cast<float>();
     for (int y = 1; y + 1 < from_.height(); ++y) {
       RowSums row;
@@ -151,27 +141,25 @@ class Level {
 
 /// Levenberg-Marquardt on one level; returns the mean energy.
 double refine(const Level& level, State& state) {
-  NormalEquations now = level.linearize(state);
+  RotationEquations now = level.linearize(state);
   double energy = now.mean_energy(level.pixels());
-  double lambda = kFirstLambda;
-  for (int i = 0; i < kIterations && std::isfinite(energy); ++i) {
+  LevenbergDamping damping(kTurnDamping);
+  for (int i = 0; i < kRotationIterations && std::isfinite(energy); ++i) {
     Matrix5 H = now.H;
-    H.diagonal() *= 1 + lambda;
-    H.diagonal().array() += kDiagonalFloor;
+    damping.damp(H);
     const Vector5 step = -H.ldlt().solve(now.b);
     if (!step.allFinite()) break;
     const State trial{SO3d::exp(step.head<3>()) * state.rotation, state.gain + step[3], state.offset + step[4]};
-    const NormalEquations next = level.linearize(trial);
+    const RotationEquations next = level.linearize(trial);
     const double next_energy = next.mean_energy(level.pixels());
     if (!(next_energy < energy)) {
-      lambda *= kLambdaUp;
-      if (lambda > kMostLambda) break;
+      if (!damping.stiffen()) break;
       continue;
     }
     state = trial;
     now = next;
     energy = next_energy;
-    lambda = std::max(kLeastLambda, lambda * kLambdaDown);
+    damping.relax();
     if (step.head<3>().norm() < kSmallTurn) break;
   }
   return energy;
@@ -200,7 +188,7 @@ State search(const Level& level, const SO3d& centre) {
     }
   }
   std::stable_sort(trials.begin(), trials.end(), is_better);
-  trials.resize(std::min(trials.size(), kFinalists));
+  trials.resize(std::min(trials.size(), kRotationFinalists));
   for (Trial& trial : trials) trial.energy = refine(level, trial.state);
   return std::min_element(trials.begin(), trials.end(), is_better)->state;
 }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "geometry/levenberg_damping.h"
+
 namespace ldso {
 namespace {
 
@@ -30,25 +32,14 @@ constexpr int kPolishIterations = 8;
 /// Motions whose directions are nearer to each other are one [rad].
 constexpr double kDistinctDirection = 0.2;
 /// Distinct motions that are compared in the end.
-constexpr std::size_t kFinalists = 3;
+constexpr std::size_t kMotionFinalists = 3;
 /// Squared derivative of a match by its inverse depth below which it says nothing of that.
 constexpr double kLeastCurvature = 1e-12;
 /// One match's evidence for the sign of the depths counts up to three standard deviations squared.
 constexpr double kMostEvidence = 9.0;
-/// Damping of Levenberg-Marquardt at first, in proportion to the diagonal.
-constexpr double kFirstLambda = 1e-2;
-/// Damping never falls below this.
-constexpr double kLeastLambda = 1e-7;
-/// With more damping steps move nothing.
-constexpr double kMostLambda = 1e5;
-/// Factor on the damping after a step that lowers the cost.
-constexpr double kLambdaDown = 0.15;
-/// Factor on the damping after a step that does not.
-constexpr double kLambdaUp = 8;
+constexpr DampingRule kMotionDamping{.first = 1e-2, .least = 1e-7, .most = 1e5, .down = 0.15, .up = 8, .floor = 1e-9};
 /// A step that lowers the cost by a smaller share of it is the last one.
-constexpr double kSmallGain = 1e-6;
-/// Added to the diagonal, far below any information: what nothing determines stays as it is.
-constexpr double kDiagonalFloor = 1e-9;
+constexpr double kSmallMotionGain = 1e-6;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -210,25 +201,23 @@ SE3d moved(const SE3d& T, const Vector6& step, Depths depths) {
 
 Candidate minimize(const Problem& problem, SE3d T, Depths depths, int iterations, double* forward_votes = nullptr) {
   Linearization now = problem.linearize(T);
-  double lambda = kFirstLambda;
+  LevenbergDamping damping(kMotionDamping);
   for (int i = 0; i < iterations; ++i) {
     const Eigen::MatrixXd basis = free_motions(T, depths);
     Eigen::MatrixXd H = basis.transpose() * now.H * basis;
-    H.diagonal() *= 1 + lambda;
-    H.diagonal().array() += kDiagonalFloor;
+    damping.damp(H);
     const Vector6 step = -basis * H.ldlt().solve(basis.transpose() * now.b);
     if (!step.allFinite()) break;
     const SE3d trial = moved(T, step, depths);
     const Linearization next = problem.linearize(trial);
     if (!(next.cost < now.cost)) {
-      lambda *= kLambdaUp;
-      if (lambda > kMostLambda) break;
+      if (!damping.stiffen()) break;
       continue;
     }
-    const bool converged = now.cost - next.cost < kSmallGain * now.cost;
+    const bool converged = now.cost - next.cost < kSmallMotionGain * now.cost;
     T = trial;
     now = next;
-    lambda = std::max(kLeastLambda, lambda * kLambdaDown);
+    damping.relax();
     if (converged) break;
   }
   if (forward_votes != nullptr) *forward_votes = now.forward_votes;
@@ -296,7 +285,7 @@ std::vector<Candidate> search(const std::vector<TwoViewMatch>& matches, const Pi
 double direction_stddev(const Problem& problem, const SE3d& T) {
   const Eigen::MatrixXd basis = free_motions(T, Depths::kPositive);
   Eigen::Matrix<double, 5, 5> H = basis.transpose() * problem.linearize(T).H * basis;
-  H.diagonal().array() += kDiagonalFloor;
+  H.diagonal().array() += kMotionDamping.floor;
   const Eigen::Matrix2d covariance = H.inverse().topLeftCorner<2, 2>();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
   return std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
@@ -318,7 +307,7 @@ TwoViewFit fit_rotation(const std::vector<TwoViewMatch>& matches, const PinholeI
 TwoViewFit fit_motion(const std::vector<TwoViewMatch>& matches, const PinholeIntrinsics& camera, const SO3d& rotation,
                       const std::optional<SE3d>& guess, ThreadPool& pool) {
   std::vector<Candidate> starts = search(thinned(matches, kSearchMatches), camera, rotation, pool);
-  starts.resize(std::min(starts.size(), kFinalists));
+  starts.resize(std::min(starts.size(), kMotionFinalists));
   if (guess) starts.push_back({SE3d(guess->rotation(), guess->translation().normalized()), 0});
   const std::vector<TwoViewMatch> some = thinned(matches, kCompareMatches);
   const Problem comparison(some, camera, Depths::kPositive);

@@ -9,7 +9,7 @@ namespace ldso {
 namespace {
 
 /// Of an inverse depth: below it, or if it is no number, nothing is known.
-constexpr float kLeastHessian = 1e-3f;
+constexpr float kLeastKnownHessian = 1e-3f;
 
 FinishedKeyframe finish(const Window& window, const Keyframe& keyframe, bool with_active) {
   FinishedKeyframe finished;
@@ -64,7 +64,7 @@ MapPoint make_map_point(const ActivePoint& point, double residual_variance) {
   result.u = point.u;
   result.v = point.v;
   result.idepth = point.idepth;
-  const float hessian = point.idepth_hessian > kLeastHessian ? point.idepth_hessian : kLeastHessian;
+  const float hessian = point.idepth_hessian > kLeastKnownHessian ? point.idepth_hessian : kLeastKnownHessian;
   result.idepth_stddev = static_cast<float>(std::sqrt(residual_variance)) * std::sqrt(1.0f / hessian);
   result.intensity = point.patch.intensity[4];
   result.is_corner = point.is_corner;

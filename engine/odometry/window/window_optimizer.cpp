@@ -13,13 +13,8 @@ namespace {
 /// length, slow drift of depths). With 0.1 those hardly move within the iterations there are (the kitchen's ATE was
 /// 0.04 to 0.24 m over seven first frames, now it is 0.05 to 0.06 m); with 1e-3 they follow noise where the camera
 /// drives straight on (a street's ATE doubles).
-constexpr double kFirstLambda = 1e-2;
-/// Damping never falls below this.
-constexpr double kLeastLambda = 1e-5;
-/// Factor on the damping after a step that is accepted.
-constexpr double kLambdaDown = 0.25;
-/// Factor on the damping after a step that is not: the next one has to succeed, iterations are few.
-constexpr double kLambdaUp = 100;
+/// After a step that is not accepted it rises by far: the next one has to succeed, iterations are few.
+constexpr DampingRule kWindowDamping{.first = 1e-2, .least = 1e-5, .down = 0.25, .up = 100};
 /// Root mean square over the keyframes below which the change of the brightness a is small. The step is if those of
 /// rotation and translation are, too.
 constexpr double kSmallBrightness = 6e-4;
@@ -115,7 +110,7 @@ double prior_energy(const Window& window) {
 OptimizationReport WindowOptimizer::optimize(Window& window, int max_iterations) {
   OptimizationReport report;
   const auto chunks = chunk_points(window, [](const ActivePoint& p) { return !p.residuals.empty(); });
-  lambda_ = kFirstLambda;
+  damping_ = LevenbergDamping(kWindowDamping);
   energy_ = linearize(window, FramePairs(window), chunks, window.front, pool_);
   update_outlier_energy(window);
   energy_ = reclassify(window, chunks, window.front) + prior_energy(window);
@@ -129,8 +124,8 @@ OptimizationReport WindowOptimizer::optimize(Window& window, int max_iterations)
 }
 
 bool WindowOptimizer::try_step(Window& window, const std::vector<PointChunk>& chunks, int iteration) {
-  const NormalEquations equations = builder_.build(window, FramePairs(window), chunks, lambda_);
-  const Eigen::VectorXd step = solve(window, equations, lambda_, iteration >= kFirstFixedScaleIteration);
+  const NormalEquations equations = builder_.build(window, FramePairs(window), chunks, damping_.value());
+  const Eigen::VectorXd step = solve(window, equations, iteration >= kFirstFixedScaleIteration);
   if (!step.allFinite()) return false;
   builder_.back_substitute(chunks, step);
   back_up(window);
@@ -141,16 +136,15 @@ bool WindowOptimizer::try_step(Window& window, const std::vector<PointChunk>& ch
   if (energy < energy_) {
     window.front = tried;
     energy_ = energy;
-    lambda_ = std::max(kLeastLambda, kLambdaDown * lambda_);
+    damping_.relax();
   } else {
     restore(window);
-    lambda_ *= kLambdaUp;
+    damping_.stiffen();
   }
   return true;
 }
 
-Eigen::VectorXd WindowOptimizer::solve(Window& window, const NormalEquations& equations, double lambda,
-                                       bool fix_scale) const {
+Eigen::VectorXd WindowOptimizer::solve(Window& window, const NormalEquations& equations, bool fix_scale) const {
   const Eigen::VectorXd delta = window.delta();
   Eigen::MatrixXd H = equations.H + window.prior.H;
   Eigen::VectorXd b = equations.b + window.prior.gradient(delta);
@@ -162,7 +156,7 @@ Eigen::VectorXd WindowOptimizer::solve(Window& window, const NormalEquations& eq
     b.segment<kFrameDof>(offset) += keyframe->prior.cwiseProduct(keyframe->state.delta - keyframe->prior_mean);
   }
   window.hessian = H - equations.H_sc;
-  H.diagonal() *= 1 + lambda;
+  damping_.damp(H);
   H -= equations.H_sc;
   b -= equations.b_sc;
   const Eigen::VectorXd scale = (H.diagonal().array().abs() + 10).sqrt().inverse();

@@ -3,6 +3,7 @@
 // Photometric bundle adjustment of the sliding window: Levenberg-Marquardt over intrinsics, poses, brightness
 // and inverse depths with first-estimate Jacobians (DSO section 2.3).
 
+#include "geometry/levenberg_damping.h"
 #include "odometry/state/window.h"
 #include "odometry/window/normal_equations.h"
 #include "util/thread_pool.h"
@@ -27,12 +28,12 @@ class WindowOptimizer {
 
  private:
   bool try_step(Window& window, const std::vector<PointChunk>& chunks, int iteration);
-  Eigen::VectorXd solve(Window& window, const NormalEquations& equations, double lambda, bool fix_scale) const;
+  Eigen::VectorXd solve(Window& window, const NormalEquations& equations, bool fix_scale) const;
   void settle(Window& window, const std::vector<PointChunk>& chunks, OptimizationReport& report);
 
   ThreadPool& pool_;
   NormalEquationsBuilder builder_;
-  double lambda_ = 0;
+  LevenbergDamping damping_;
   double energy_ = 0;
   bool small_step_ = false;
 };

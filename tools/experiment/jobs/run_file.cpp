@@ -11,7 +11,7 @@ namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kRun = "run.json";
 
@@ -115,7 +115,7 @@ RunOutcome outcome_of(const Json& run) {
   return outcome;
 }
 
-RunOutcome failure_of(const Json& failure) {
+RunOutcome outcome_of_failure(const Json& failure) {
   RunOutcome outcome;
   outcome.state = RunState::kFailed;
   outcome.reason = failure.value("reason", "");
@@ -135,7 +135,7 @@ void refresh(const fs::path& folder) {
 
 /// The file's content through `convert`; pending if there is no such file, or with a reason if it is damaged.
 template <class Convert>
-RunOutcome read(const fs::path& path, Convert convert) {
+RunOutcome read_outcome(const fs::path& path, Convert convert) {
   RunOutcome damaged;
   std::error_code error_code;
   const fs::file_time_type written = fs::last_write_time(path, error_code);
@@ -156,9 +156,9 @@ RunOutcome read(const fs::path& path, Convert convert) {
 
 RunOutcome read_run(const fs::path& folder) {
   refresh(folder);
-  RunOutcome outcome = read(folder / kRun, outcome_of);
+  RunOutcome outcome = read_outcome(folder / kRun, outcome_of);
   if (outcome.state != RunState::kPending) return outcome;
-  RunOutcome failure = read(folder / kFailureName, failure_of);
+  RunOutcome failure = read_outcome(folder / kFailureName, outcome_of_failure);
   return failure.state == RunState::kFailed || outcome.reason.empty() ? failure : outcome;
 }
 

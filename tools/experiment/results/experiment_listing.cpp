@@ -14,13 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFileName = "experiment.json";
+constexpr const char* kListingFile = "experiment.json";
 constexpr std::string_view kBeginning = "{\n  \"title\":";
 
 }  // namespace
 
 void write_listing(const fs::path& experiment, const ExperimentListing& listing) {
-  const fs::path file = experiment / kFileName;
+  const fs::path file = experiment / kListingFile;
   refuse_other_file(file, {kBeginning}, "the list of an experiment");
   create_folder(experiment);
   const Json json{{"title", listing.title}, {"jobs", listing.jobs}};
@@ -28,10 +28,10 @@ void write_listing(const fs::path& experiment, const ExperimentListing& listing)
 }
 
 ExperimentListing read_listing(const fs::path& experiment) {
-  const fs::path path = experiment / kFileName;
+  const fs::path path = experiment / kListingFile;
   std::error_code error;
   if (!fs::exists(path, error)) {
-    throw Error(experiment.string(), std::string("is no folder of an experiment: there is no ") + kFileName,
+    throw Error(experiment.string(), std::string("is no folder of an experiment: there is no ") + kListingFile,
                 "give the folder that `ldso experiment run` had by -o");
   }
   try {

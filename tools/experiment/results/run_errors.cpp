@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;  ///< To be raised when a metric changes: what is kept is then measured again.
-constexpr const char* kFileName = "errors.json";
+constexpr const char* kErrorsFile = "errors.json";
 
 std::uint64_t fingerprint(const Trajectory& trajectory) {
   Checksum result;
@@ -161,9 +161,9 @@ TrajectoryErrors measure_trajectory(const Trajectory& estimate, const Trajectory
 
 RunErrors measure_run(const fs::path& folder, const ExperimentJob& job, const GroundTruth& truth, bool has_odometry) {
   const Json key = key_of(folder, job, truth, has_odometry);
-  if (std::optional<RunErrors> kept = read_kept(folder / kFileName, key)) return *kept;
+  if (std::optional<RunErrors> kept = read_kept(folder / kErrorsFile, key)) return *kept;
   RunErrors run = measure(folder, job, truth, has_odometry);
-  keep(folder / kFileName, key, run);
+  keep(folder / kErrorsFile, key, run);
   return run;
 }
 

@@ -11,7 +11,7 @@
 namespace ldso {
 namespace {
 
-constexpr double kLeft = 80, kTop = 74, kChartWidth = 540, kChartHeight = 420, kAxisRoom = 60;
+constexpr double kLeft = 80, kTopOfCurves = 74, kChartWidth = 540, kChartHeight = 420, kAxisRoom = 60;
 constexpr double kShareShown = 0.9;  ///< Of the runs of the variant that has most within the axis.
 
 // Okabe and Ito's palette; dashes tell the rest.
@@ -136,7 +136,7 @@ double legend_width(const std::vector<Curve>& curves, const ErrorAxis& axis) {
 
 std::string draw_legend(const std::vector<Curve>& curves, const ErrorAxis& axis) {
   const double x = kLeft + kChartWidth + 22;
-  double y = kTop + 10;
+  double y = kTopOfCurves + 10;
   std::string svg;
   for (const Curve& curve : curves) {
     svg += svg_line_sample(x, y, curve.style) + svg_text(x + 38, y + 4, curve_title(curve), 13);
@@ -163,12 +163,13 @@ std::string cumulative_plot(const DatasetResults& dataset, const ErrorKind& kind
   std::size_t most = 1;
   for (const Curve& curve : curves) most = std::max(most, curve.errors.values.size());
   const Range y{0, 1.04 * static_cast<double>(most)};
-  SvgChart chart({kLeft, kTop, kChartWidth, kChartHeight}, axis.range, y);
+  SvgChart chart({kLeft, kTopOfCurves, kChartWidth, kChartHeight}, axis.range, y);
   chart.add_axes(label_of(kind) + (options.log_axis ? " (logarithmic)" : ""), "runs with a smaller error", axis.ticks,
                  number_ticks(y, 7, true));
   for (const Curve& curve : curves) chart.add_line(steps_of(curve.errors, axis), curve.style);
   const std::string title = std::string(kind.title) + (dataset.name.empty() ? "" : ", " + dataset.name);
-  const double height = std::max(kTop + kChartHeight + kAxisRoom, kTop + 30 + 42 * static_cast<double>(curves.size()));
+  const double height =
+      std::max(kTopOfCurves + kChartHeight + kAxisRoom, kTopOfCurves + 30 + 42 * static_cast<double>(curves.size()));
   return svg_document(kLeft + kChartWidth + legend_width(curves, axis), height,
                       svg_text(24, 30, title, 18, "start", "font-weight=\"bold\"") +
                           svg_text(24, 52, "number of runs whose error is below x; higher and further left is better",

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTexel = 0.004;
-constexpr double kHeight = 2.6;
+constexpr double kCorridorTexel = 0.004;
+constexpr double kCorridorHeight = 2.6;
 constexpr double kHalfWidth = 1.2;
 
 /// The middle line of the corridor is the rectangle 0..a in z, 0..b in x; the floor is y = 0.
@@ -36,7 +36,7 @@ class Corridor {
   }
 
  private:
-  Skin painted(double width, double height, std::function<void(Canvas&)> painter, double texel = kTexel) {
+  Skin painted(double width, double height, std::function<void(Canvas&)> painter, double texel = kCorridorTexel) {
     return {builder_.paint(width, height, texel, std::move(painter)), 0, 0};
   }
 
@@ -48,8 +48,9 @@ class Corridor {
     const double piece = length / pieces;
     for (int i = 0; i < pieces; ++i) {
       const std::uint64_t seed = random_.bits();
-      const Skin skin = painted(piece, kHeight, [=](Canvas& c) { paint_piece(c, seed); });
-      builder_.quad(from + i * piece * along - Vector3d(0, kHeight, 0), piece * along, {0, kHeight, 0}, skin);
+      const Skin skin = painted(piece, kCorridorHeight, [=](Canvas& c) { paint_piece(c, seed); });
+      builder_.quad(from + i * piece * along - Vector3d(0, kCorridorHeight, 0), piece * along, {0, kCorridorHeight, 0},
+                    skin);
     }
   }
 
@@ -66,15 +67,15 @@ class Corridor {
     else
       paint_plaster(c, upper, seed);
     if (coat >= 2) {  // A dado with a rail.
-      const double dado = kHeight - random.uniform(0.9, 1.1);
-      c.apply(0, dado, w, kHeight, [&](double, double, float old) { return old * lower / upper; });
+      const double dado = kCorridorHeight - random.uniform(0.9, 1.1);
+      c.apply(0, dado, w, kCorridorHeight, [&](double, double, float old) { return old * lower / upper; });
       c.rectangle(0, dado - 0.05, w, dado, 0.3f);
     }
     double x = random.uniform(0.15, 0.5);
     while (x < w - 0.5) {
       const double kind = random.uniform();
       if (kind < 0.4 && x < w - 1.1) {
-        paint_door(c, x + 0.08, kHeight - 2.08, x + 0.98, kHeight, random.bits());
+        paint_door(c, x + 0.08, kCorridorHeight - 2.08, x + 0.98, kCorridorHeight, random.bits());
         x += 1.25;
       } else if (kind < 0.55 && x < w - 0.9) {
         notice_board(c, x, std::min(x + random.uniform(0.8, 1.5), w - 0.1), random);
@@ -86,9 +87,11 @@ class Corridor {
         x += wide + random.uniform(0.15, 0.6);
       }
     }
-    c.rectangle(0, kHeight - 0.1, w, kHeight, 0.25f, 0.7f);
-    c.line(0, kHeight - 0.1, w, kHeight - 0.1, 0.01, 0.6f);
-    c.apply([&](double, double y, float old) { return old * (1 - 0.2 * std::exp(-std::min(y, kHeight - y) / 0.2)); });
+    c.rectangle(0, kCorridorHeight - 0.1, w, kCorridorHeight, 0.25f, 0.7f);
+    c.line(0, kCorridorHeight - 0.1, w, kCorridorHeight - 0.1, 0.01, 0.6f);
+    c.apply([&](double, double y, float old) {
+      return old * (1 - 0.2 * std::exp(-std::min(y, kCorridorHeight - y) / 0.2));
+    });
     c.stain(noise_tiles().cloudy, 1.0, 0.05, seed + 5);
   }
 
@@ -136,7 +139,7 @@ class Corridor {
         c.rectangle(0.5 * dx - 0.6, 0.5 * dz - 0.15, 0.5 * dx + 0.6, 0.5 * dz + 0.15, 1.1f);
         c.rectangle(0.5 * dx - 0.02, 0.5 * dz - 0.15, 0.5 * dx + 0.02, 0.5 * dz + 0.15, 0.7f);
       });
-      builder_.quad({px0, -kHeight, pz0}, {dx, 0, 0}, {0, 0, dz}, panels);
+      builder_.quad({px0, -kCorridorHeight, pz0}, {dx, 0, 0}, {0, 0, dz}, panels);
     }
   }
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTexel = 0.003;
-constexpr double kHeight = 2.8;
+constexpr double kRoomHeight = 2.8;
 constexpr float kWeakContrast = 0.25f;      ///< What is left of a painting's contrast in the weak style.
 constexpr double kPanoramaHalfWidth = 2.2;  ///< [m]
 constexpr double kPanoramaTop = 0.12;       ///< Below the ceiling [m].
@@ -82,13 +82,13 @@ class Room {
   /// Nothing hangs on it, so it looks the same everywhere.
   Skin repetitive_wall(double width) {
     const std::uint64_t seed = random_.bits();
-    return painted(width, kHeight, [=](Canvas& c) { paint_repetitive_wallpaper(c, seed); });
+    return painted(width, kRoomHeight, [=](Canvas& c) { paint_repetitive_wallpaper(c, seed); });
   }
 
   /// A wide window in an empty wall.
   Skin panorama_wall(double width) {
     const std::uint64_t seed = random_.bits();
-    return painted(width, kHeight, [=](Canvas& c) {
+    return painted(width, kRoomHeight, [=](Canvas& c) {
       c.fill(0.55f);
       paint_panorama(c, 0.5 * width - kPanoramaHalfWidth, kPanoramaTop, 0.5 * width + kPanoramaHalfWidth,
                      kPanoramaBottom, seed);
@@ -99,7 +99,7 @@ class Room {
   Skin wall(double width, bool window) {
     if (options_.style == RoomStyle::kWallpaper) return repetitive_wall(width);
     const std::uint64_t seed = random_.bits();
-    return painted(width, kHeight, [=](Canvas& c) {
+    return painted(width, kRoomHeight, [=](Canvas& c) {
       Random random(seed, 1);
       const auto albedo = static_cast<float>(random.uniform(0.5, 0.68));
       if (random.chance(0.5)) {
@@ -117,17 +117,17 @@ class Room {
       } else {
         const double x0 = random.uniform(0.2, width - 1.4);
         hang(c, 0.15, x0 - 0.15, random);
-        paint_door(c, x0, kHeight - 2.05, x0 + 0.85, kHeight, random.bits());
+        paint_door(c, x0, kRoomHeight - 2.05, x0 + 0.85, kRoomHeight, random.bits());
         c.rectangle(x0 + 1.05, 1.6, x0 + 1.13, 1.72, 0.85f);  // Switch.
         x = x0 + 1.25;
       }
       hang(c, x, width - 0.15, random);
-      c.rectangle(0, kHeight - 0.09, width, kHeight, 0.72f, window ? 1.0f : 0.6f);
-      c.line(0, kHeight - 0.09, width, kHeight - 0.09, 0.008, 0.35f);
+      c.rectangle(0, kRoomHeight - 0.09, width, kRoomHeight, 0.72f, window ? 1.0f : 0.6f);
+      c.line(0, kRoomHeight - 0.09, width, kRoomHeight - 0.09, 0.008, 0.35f);
       c.rectangle(0, 0, width, 0.05, 0.75f);
       c.line(0, 0.052, width, 0.052, 0.006, 0.4f);
       c.apply([&](double px, double py, float old) {  // Darker towards the corners.
-        const double edge = std::min({px, width - px, py, kHeight - py});
+        const double edge = std::min({px, width - px, py, kRoomHeight - py});
         return old * (1 - 0.22 * std::exp(-edge / 0.25));
       });
     });
@@ -151,16 +151,16 @@ class Room {
 
   void shell() {
     const double x = half_x_, z = half_z_;
-    builder_.quad({-x, -kHeight, z}, {2 * x, 0, 0}, {0, kHeight, 0}, wall(2 * x, false));
-    builder_.quad({x, -kHeight, -z}, {-2 * x, 0, 0}, {0, kHeight, 0},
+    builder_.quad({-x, -kRoomHeight, z}, {2 * x, 0, 0}, {0, kRoomHeight, 0}, wall(2 * x, false));
+    builder_.quad({x, -kRoomHeight, -z}, {-2 * x, 0, 0}, {0, kRoomHeight, 0},
                   options_.panorama ? panorama_wall(2 * x) : wall(2 * x, true));
-    builder_.quad({-x, -kHeight, -z}, {0, 0, 2 * z}, {0, kHeight, 0}, wall(2 * z, true));
-    builder_.quad({x, -kHeight, z}, {0, 0, -2 * z}, {0, kHeight, 0}, wall(2 * z, false));
+    builder_.quad({-x, -kRoomHeight, -z}, {0, 0, 2 * z}, {0, kRoomHeight, 0}, wall(2 * z, true));
+    builder_.quad({x, -kRoomHeight, z}, {0, 0, -2 * z}, {0, kRoomHeight, 0}, wall(2 * z, false));
     const std::uint64_t seed = random_.bits();
     const auto albedo = static_cast<float>(random_.uniform(0.3, 0.45));
     builder_.quad({-x, 0, z}, {2 * x, 0, 0}, {0, 0, -2 * z},
                   painted(2 * x, 2 * z, [=](Canvas& c) { paint_planks(c, 0.13, albedo, seed); }));
-    builder_.quad({-x, -kHeight, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}, painted(2 * x, 2 * z, [=](Canvas& c) {
+    builder_.quad({-x, -kRoomHeight, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}, painted(2 * x, 2 * z, [=](Canvas& c) {
                     paint_plaster(c, 0.75f, seed + 1);
                     for (double at = 0.7; at < c.width(); at += 1.3) {
                       c.rectangle(at, 0, at + 0.12, c.height(), 0.4f);

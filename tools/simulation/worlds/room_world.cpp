@@ -14,12 +14,12 @@ constexpr double kDarkLight = 0.1;  ///< Share of the usual light in the dark st
 /// Round the table on a wavy oval, looking across the room, 1.6 times round.
 std::vector<WalkPoint> room_walk(const FurnishedRoom& room, const IndoorOptions& options) {
   Random random(options.seed, 0x3a1c);
-  constexpr double kDuration = 30, kStep = 0.75;
+  constexpr double kRoomWalkDuration = 30, kStep = 0.75;
   const double turns = 1.55, start = random.uniform(0, 2 * std::numbers::pi), way = random.chance(0.5) ? 1 : -1;
   const SmoothNoise radius(random.bits(), 0.07), height(random.bits(), 0.09), gaze(random.bits(), 0.08),
       tilt(random.bits(), 0.11);
   std::vector<WalkPoint> points;
-  const double duration = kDuration * options.path_scale;
+  const double duration = kRoomWalkDuration * options.path_scale;
   double angle = start;
   for (double t = 0; t < duration + 2 * kStep; t += kStep) {
     // Slow at first, so that an odometry can begin.
@@ -33,7 +33,7 @@ std::vector<WalkPoint> room_walk(const FurnishedRoom& room, const IndoorOptions&
     const double look = angle + std::numbers::pi + 0.35 * gaze.at(t) - 0.5 * way;
     point.target = {0.75 * room.half_x * std::cos(look), -1.05 + 0.2 * tilt.at(t), 0.75 * room.half_z * std::sin(look)};
     points.push_back(point);
-    angle += way * pace * turns * 2 * std::numbers::pi * kStep / kDuration;
+    angle += way * pace * turns * 2 * std::numbers::pi * kStep / kRoomWalkDuration;
   }
   return points;
 }

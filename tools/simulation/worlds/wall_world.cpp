@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kWidth = 16, kHeight = 10;  ///< [m]
 constexpr double kTexel = 0.004;             ///< [m]
-constexpr double kDuration = 36;             ///< [s]
+constexpr double kWallDuration = 36;         ///< [s]
 
 }  // namespace
 
@@ -19,7 +19,7 @@ World make_wall_world(const WallOptions& options, ThreadPool* pool) {
   builder.quad({-0.5 * kWidth, -0.5 * kHeight, kWallDistance}, {kWidth, 0, 0}, {0, kHeight, 0}, skin);
   World world;
   world.name = "wall";
-  world.path = make_wall_motion(options.motion, random.chance(0.5) ? 1 : -1, kDuration * options.path_scale);
+  world.path = make_wall_motion(options.motion, random.chance(0.5) ? 1 : -1, kWallDuration * options.path_scale);
   world.scene = builder.finish(pool);
   return world;
 }

@@ -12,13 +12,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDuration = 36;    ///< [s]
-constexpr double kAtWindow = 8;     ///< Until the camera begins to turn away [s].
-constexpr double kTurning = 8;      ///< Until it looks into the room [s].
-constexpr double kStep = 0.75;      ///< Between the points of the way [s].
-constexpr double kSlowPace = 0.04;  ///< Round the room at the window, about 7 cm/s [rad/s].
-constexpr double kPace = 0.32;      ///< Round the room afterwards, as in the room [rad/s].
-constexpr double kInset = 0.45;     ///< The window is seen from farther inside than the walk goes [m].
+constexpr double kWindowWalkDuration = 36;  ///< [s]
+constexpr double kAtWindow = 8;             ///< Until the camera begins to turn away [s].
+constexpr double kTurning = 8;              ///< Until it looks into the room [s].
+constexpr double kStep = 0.75;              ///< Between the points of the way [s].
+constexpr double kSlowPace = 0.04;          ///< Round the room at the window, about 7 cm/s [rad/s].
+constexpr double kPace = 0.32;              ///< Round the room afterwards, as in the room [rad/s].
+constexpr double kInset = 0.45;             ///< The window is seen from farther inside than the walk goes [m].
 
 /// The angle from `from` to `to` in the sense `way` (1 or -1), within a full turn.
 double turn_between(double from, double to, double way) {
@@ -57,7 +57,7 @@ WalkPoint way_point(const FurnishedRoom& room, double t, double angle, double wa
 
 std::vector<WalkPoint> window_walk(const FurnishedRoom& room, const IndoorOptions& options) {
   Random random(options.seed, 0x317d);
-  const double way = random.chance(0.5) ? 1 : -1, duration = kDuration * options.path_scale;
+  const double way = random.chance(0.5) ? 1 : -1, duration = kWindowWalkDuration * options.path_scale;
   const Whims whims(random);
   std::vector<WalkPoint> points;
   // Half of the slow drift lies before the middle of the window, half after it.
