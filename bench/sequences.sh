@@ -23,6 +23,10 @@ list_sequences() {
 # Times of the frames in their order in the sequence; TUM-mono has "id time exposure", KITTI the time alone.
 frame_times() { awk '!/^#/ && NF { print (NF == 1 ? $1 : $2) }' "$1/times.txt"; }
 
+# What a short run over this folder is compared with: the scale of a few steps needs a truth that is surer than the depth
+# camera's of the kitchen, whose error is as large as the steps; the one by structure from motion lies beside it.
+sure_truth() { if [[ -f $1/groundtruth_sfm.txt ]]; then echo "$1/groundtruth_sfm.txt"; else echo "$1"; fi; }
+
 # figure NAME FILE: the first number of the line of `ldso eval` that begins with NAME, or "fail".
 figure() {
   awk -v name="$1" 'index($0, name) == 1 { split(substr($0, length(name) + 1), f, " "); print f[1]; found = 1; exit }

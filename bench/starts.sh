@@ -74,7 +74,7 @@ run_once() {  # name folder start frames
     "${run_options[@]}" >"$dir/run.log" 2>&1 || status=$?
   ((status == 0)) || echo "starts.sh: $dir: ldso run ended with $status, see run.log" >&2
   touch "$dir/trajectory.txt"
-  "$ldso" eval "$dir/trajectory.txt" "$folder" >"$dir/eval.txt" 2>&1 || true
+  "$ldso" eval "$dir/trajectory.txt" "$(sure_truth "$folder")" >"$dir/eval.txt" 2>&1 || true
   poses=$(awk '!/^#/ && NF { n++ } END { print n + 0 }' "$dir/trajectory.txt")
   first=$(first_tracked "$dir/trajectory.txt" < <(frame_times "$folder" | tail -n +$((start + 1)) | head -n "$frames"))
   said=$(grep -c '^warning:' "$dir/run.log" || true)

@@ -58,17 +58,37 @@ Sim3d LoopThread::correction() {
   return back < corrections_.size() ? corrections_[corrections_.size() - 1 - back] : corrections_.front();
 }
 
+KnownLoops LoopThread::known() {
+  const std::lock_guard lock(mutex_);
+  return known_;
+}
+
+void LoopThread::remember() {
+  if (closer_->optimizations() == optimizations_known_) return;
+  optimizations_known_ = closer_->optimizations();
+  KnownLoops known{closer_->poses(), {}, closer_->correction()};
+  for (const LoopRecord& loop : closer_->loops()) {
+    if (!loop.accepted) continue;
+    known.accepted.push_back(loop);
+    known.accepted.back().matches.clear();
+  }
+  const std::lock_guard lock(mutex_);
+  known_ = std::move(known);
+}
+
 void LoopThread::process(const std::stop_token& stop) {
   if (!vocabulary_) vocabulary_ = std::make_shared<const Vocabulary>(default_vocabulary());
   closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
   while (const std::optional<FinishedKeyframe> keyframe = queue_.pop()) {
     if (stop.stop_requested()) return;
     closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->camera);
+    remember();
     publish(closer_->correction());
     tell();
   }
   if (stop.stop_requested()) return;
   closer_->finish();
+  remember();
   if (closer_->optimizations() > optimizations_told_) tell();
   if (!closer_->graph_failure().empty()) {
     log_to(log_, LogLevel::kWarning, "the last loops move no keyframe: " + closer_->graph_failure());

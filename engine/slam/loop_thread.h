@@ -23,6 +23,13 @@
 
 namespace ldso {
 
+/// What loop closing knew when it optimized last.
+struct KnownLoops {
+  std::vector<KeyframePose> poses;   ///< Of the keyframes there were then; none as long as no loop is closed.
+  std::vector<LoopRecord> accepted;  ///< Without their matches.
+  Sim3d correction;                  ///< From the odometry's world to the corrected one, for later keyframes.
+};
+
 class LoopThread {
  public:
   /// Throws Error if `settings.vocabulary` names a file that cannot be read.
@@ -39,6 +46,9 @@ class LoopThread {
   /// be, so that the same run says the same. The identity as long as no loop is closed; after a failure the last one.
   Sim3d correction();
 
+  /// At this moment, without waiting: it does depend on time.
+  KnownLoops known();
+
   /// Waits until all keyframes are done and closes their loops. To be called once, after the last one. Nothing if loop
   /// closing failed (which the log has heard): the odometry stands on its own.
   const LoopCloser* finish();
@@ -48,6 +58,8 @@ class LoopThread {
   void process(const std::stop_token& stop);
   /// Tells the observer what has changed since it was told last.
   void tell();
+  /// Keeps what an optimization has changed for known().
+  void remember();
   /// Makes the correction after a keyframe known.
   void publish(const Sim3d& correction);
 
@@ -60,10 +72,12 @@ class LoopThread {
   bool failed_ = false;
   std::shared_ptr<RunObserver> observer_;  ///< With the next two of the thread's own.
   int optimizations_told_ = 0;
+  int optimizations_known_ = 0;   ///< Of the thread's own, too.
   std::vector<bool> loops_told_;  ///< Of all records: whether it was told as accepted.
 
   std::mutex mutex_;
   std::condition_variable published_;
+  KnownLoops known_;
   std::deque<Sim3d> corrections_;  ///< After each of the last keyframes that are done.
   std::size_t added_ = 0;          ///< Keyframes handed over.
   std::size_t done_ = 0;           ///< Keyframes that loop closing is through with.

@@ -147,6 +147,11 @@ TEST_F(LoopThreadTest, GivesWhatLoopCloserGives) {
     accepted += a.accepted;
   }
   EXPECT_GT(accepted, 0);
+  const KnownLoops known = thread.known();
+  EXPECT_EQ(known.accepted.size(), static_cast<std::size_t>(accepted));
+  ASSERT_EQ(known.poses.size(), poses.size());
+  EXPECT_EQ(known.poses.back().S_world_keyframe.matrix(), poses.back().S_world_keyframe.matrix());
+  EXPECT_EQ(known.correction.matrix(), closer.correction().matrix());
 }
 
 /// However fast the thread is.

@@ -28,6 +28,21 @@ double readout_s(const CameraCalibration& camera, const PinholeIntrinsics& recti
   return camera.readout_ms == 0 ? 0 : 1e-3 * camera.readout_ms * covered_rows(*make_camera_model(camera), rectified);
 }
 
+void sort_keyframes(std::vector<KeyframeUpdate>& keyframes) {
+  std::stable_sort(keyframes.begin(), keyframes.end(),
+                   [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
+}
+
+/// Fills `result.corrected`: keyframes that have none of the poses are moved by `correction`.
+void correct(const std::vector<KeyframePose>& poses, const Sim3d& correction, SlamResult& result) {
+  std::map<std::int64_t, Sim3d> known;
+  for (const KeyframePose& pose : poses) known[pose.keyframe_id] = pose.S_world_keyframe;
+  for (const KeyframeUpdate& keyframe : result.keyframes) {
+    const auto pose = known.find(keyframe.frame_id);
+    result.corrected.push_back(pose != known.end() ? pose->second : correction * Sim3d(keyframe.T_world_camera));
+  }
+}
+
 std::string frame_name(const FrameRecord& frame) { return "frame " + std::to_string(frame.frame_id); }
 
 }  // namespace
@@ -88,13 +103,7 @@ void Pipeline::close_loops() {
   result_.loop_variance_factors = closer->variance_factors();
   result_.loop_bytes_per_keyframe = closer->bytes_per_keyframe();
   const bool any = std::any_of(result_.loops.begin(), result_.loops.end(), [](const auto& l) { return l.accepted; });
-  if (!any) return;
-  std::map<std::int64_t, Sim3d> poses;
-  for (const KeyframePose& pose : closer->poses()) poses[pose.keyframe_id] = pose.S_world_keyframe;
-  for (const KeyframeUpdate& keyframe : result_.keyframes) {
-    const auto pose = poses.find(keyframe.frame_id);
-    result_.corrected.push_back(pose != poses.end() ? pose->second : Sim3d(keyframe.T_world_camera));
-  }
+  if (any) correct(closer->poses(), Sim3d(), result_);
 }
 
 const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const std::string& reason) {
@@ -150,10 +159,25 @@ std::optional<SE3d> Pipeline::T_world_camera() const {
   return SE3d(S.rotation() * T->rotation(), S * T->translation());
 }
 
+SlamResult Pipeline::snapshot() {
+  SlamResult result = result_;
+  for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) {
+    result.keyframes.push_back(std::move(keyframe.update));
+    result.keyframes.back().constraints.clear();
+  }
+  sort_keyframes(result.keyframes);
+  result.camera = odometry_.camera();
+  result.restarts = odometry_.restarts();
+  if (!loops_) return result;
+  KnownLoops known = loops_->known();
+  if (!known.accepted.empty()) correct(known.poses, known.correction, result);
+  result.loops = std::move(known.accepted);
+  return result;
+}
+
 SlamResult Pipeline::finish() {
   for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) finish_keyframe(std::move(keyframe));
-  std::stable_sort(result_.keyframes.begin(), result_.keyframes.end(),
-                   [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
+  sort_keyframes(result_.keyframes);
   result_.camera = odometry_.camera();
   result_.restarts = odometry_.restarts();
   close_loops();

@@ -46,6 +46,10 @@ class Pipeline {
   /// For stages outside of the pipeline whose time belongs to the result.
   StageTimes& times() { return times_; }
 
+  /// The result as it is known so far: with the loops of the last optimization, but for their matches, and without the
+  /// times. The run goes on as if nobody had asked.
+  SlamResult snapshot();
+
   /// To be called once, at the end.
   SlamResult finish();
 

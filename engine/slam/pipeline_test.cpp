@@ -112,6 +112,22 @@ TEST_F(PipelineTest, ALostMapAndTheNextOneAreBothInTheResult) {
   EXPECT_GT(way.x() / way.norm(), 0.99);
 }
 
+TEST_F(PipelineTest, ASnapshotTellsTheFramesSoFar) {
+  show_scene(0, kFrames);
+  const SlamResult snapshot = pipeline_.snapshot();
+  const SlamResult result = pipeline_.finish();
+  EXPECT_EQ(snapshot.frames.size(), static_cast<std::size_t>(kFrames));
+  ASSERT_EQ(snapshot.keyframes.size(), result.keyframes.size());
+  EXPECT_EQ(snapshot.camera.fx, result.camera.fx);
+  EXPECT_EQ(snapshot.points().size(), result.points().size());
+  const auto poses = snapshot.trajectory(), expected = result.trajectory();
+  ASSERT_GT(poses.size(), 20u);
+  ASSERT_EQ(poses.size(), expected.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].T_world_camera.matrix(), expected[i].T_world_camera.matrix());
+  }
+}
+
 TEST_F(PipelineTest, ASkippedFrameIsRecordedWithItsReason) {
   show_scene(0, kFrames);
   const FrameRecord skipped = pipeline_.skip(next_id_++, 0.1 * kFrames, "it cannot be decoded");

@@ -13,6 +13,8 @@ inline constexpr int kNothingTrackedExitCode = 2;
 /// `ldso run SEQUENCE -o OUT`: images to a trajectory and a map. Ends with kNothingTrackedExitCode or, by Ctrl-C, with
 /// kInterruptedExitCode.
 void add_run_command(CLI::App& app, int& exit_code);
+/// `ldso resume OUT`: results of a run that was cut off, from its last checkpoint.
+void add_resume_command(CLI::App& app);
 /// `ldso view OUT`: a finished run in the browser.
 void add_view_command(CLI::App& app);
 /// `ldso export OUT`: the map and the trajectory of a finished run in the formats of other programs.

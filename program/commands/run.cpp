@@ -13,6 +13,7 @@
 #include "commands/live_truth.h"
 #include "ldso/error.h"
 #include "ldso/io/settings_file.h"
+#include "output/checkpoint_writer.h"
 #include "output/run_as_job.h"
 #include "output/run_files.h"
 #include "report/report_page.h"
@@ -37,6 +38,7 @@ struct RunArguments {
   std::optional<int> threads;
   std::optional<std::string> view;
   std::vector<std::string> set;
+  double checkpoint = RunOptions().checkpoint_interval_s;
   bool kitti = false, quiet = false, no_loops = false, loop_pictures = false, job = false, view_exit = false,
        view_paused = false, no_report = false, live = false;
 };
@@ -79,6 +81,11 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_flag("--view-paused", a.view_paused, "Wait at the first frame until the page says continue or step")
       ->needs(view)
       ->excludes(live);
+  command
+      .add_option("--checkpoint", a.checkpoint,
+                  "Seconds from one checkpoint to the next (0: none): what `ldso resume` makes results of")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.add_flag("--no-report", a.no_report, "Do not write report.html");
   command.add_flag("--quiet", a.quiet, "Print warnings only");
   command.add_flag(
@@ -157,7 +164,8 @@ LiveRunOptions live_options(const RunArguments& a, const Input& input) {
 }
 
 /// Runs the sequence with everything that is shown meanwhile. Whether Ctrl-C ended it.
-bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, RunSummary& summary) {
+bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, OutputFolder& out,
+                      RunSummary& summary) {
   ProgressDisplay display(a.quiet);
   WarningLog warnings(display);
   const auto log = [&](LogLevel level, const std::string& text) {
@@ -173,10 +181,16 @@ bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
     display.update(progress);
     live.after_frame(progress.done, progress.count, interrupt.flag(), progress.dropped);
   };
+  CheckpointWriter checkpoints(out, summary, *input.dataset,
+                               [&](const std::string& problem) { log(LogLevel::kWarning, problem); });
+  options.checkpoint_interval_s = a.checkpoint;
+  if (a.checkpoint > 0)
+    options.checkpoint = [&](SequenceRun run) { checkpoints.write(std::move(run), live.recording()); };
   live.after_frame(0, input.dataset->size(), interrupt.flag());
   const double paused_before = live.paused_seconds();
   summary.run = input.stream ? run_live(*input.stream, summary.settings, log, options)
                              : run_sequence(*input.dataset, summary.settings, log, options);
+  checkpoints.close();
   if (input.is_camera) summary.run.stopped = false;  // It has no other end.
   summary.run.seconds -= live.paused_seconds() - paused_before;
   if (summary.run.stopped) log(LogLevel::kWarning, "interrupted: the frames up to here are saved");
@@ -238,7 +252,7 @@ int run(const RunArguments& a) {
   LiveRun live(live_options(a, input));
   if (a.view) announce_page(live.url());
 
-  const bool was_interrupted = run_with_display(input, a, live, summary);
+  const bool was_interrupted = run_with_display(input, a, live, out, summary);
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);

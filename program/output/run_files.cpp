@@ -59,7 +59,7 @@ void write_loop_files(OutputFolder& out, const RunSummary& summary) {
 std::vector<std::string> result_names() {
   return {"trajectory.txt", "trajectory_odometry.txt", "trajectory_kitti.txt", "trajectory.svg", "keyframes.txt",
           "map.ply",        "map_odometry.ply",        "loops.json",           kRecordingName,   kReportName,
-          kRunJson,         kLoopPictureFolder};
+          kRunJson,         kCheckpointName,           kLoopPictureFolder};
 }
 
 /// Files of segments beyond the first that have names of their own: more maps than that are not worth keeping.
@@ -122,7 +122,7 @@ OutputFolder open_run_folder(const fs::path& folder) {
 OutputFolder prepare_output_folder(const fs::path& folder) {
   OutputFolder out = open_run_folder(folder);
   out.check(all_names());
-  for (const char* name : {kRunJson, kReportName}) out.remove(name);
+  for (const char* name : {kRunJson, kCheckpointName, kReportName}) out.remove(name);
   return out;
 }
 
@@ -160,8 +160,13 @@ void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti) {
     write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.better_calibration));
 }
 
+void write_checkpoint_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset) {
+  write_file(out.file(kCheckpointName), run_json(summary, dataset).dump(2) + "\n");
+}
+
 void write_run_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset) {
   write_file(out.file(kRunJson), run_json(summary, dataset).dump(2) + "\n");
+  out.remove(kCheckpointName);
 }
 
 }  // namespace ldso

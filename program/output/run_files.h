@@ -10,7 +10,8 @@
 namespace ldso {
 
 inline constexpr const char* kRunJson = "run.json";
-inline constexpr const char* kCameraName = "camera.txt";  ///< The calibration that a run corrected.
+inline constexpr const char* kCheckpointName = "checkpoint.json";  ///< What run.json will be if the run is cut off.
+inline constexpr const char* kCameraName = "camera.txt";           ///< The calibration that a run corrected.
 
 /// The folder of a run's results, created if there is none. What an earlier run wrote there is ldso's, also of versions
 /// that kept no list: these left a run.json that tells what belongs to it.
@@ -30,7 +31,10 @@ void refuse_output_in_input(const std::filesystem::path& folder, const std::file
 /// Files of an earlier run that this one does not write are removed.
 void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti);
 
-/// run.json, last and all at once: where it is, everything else is complete.
+/// checkpoint.json, after the other files of a run that goes on.
+void write_checkpoint_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset);
+
+/// run.json, last and all at once: where it is, everything else is complete. Removes the checkpoint.
 void write_run_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset);
 
 }  // namespace ldso

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "running/checkpoint_clock.h"
 #include "running/ready_frame.h"
 #include "slam/calibration_watch.h"
 #include "util/bounded_queue.h"
@@ -156,6 +157,7 @@ class LiveWatch {
 void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream, const Settings& settings,
                const LogSink& log, const RunOptions& options, SequenceRun& run) {
   LiveWatch watch(settings.self_calibration, pipeline, log, run);
+  CheckpointClock checkpoints(options);
   Latency latency;
   while (true) {
     std::optional<LiveItem> item;
@@ -172,6 +174,7 @@ void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream
       options.progress(
           {static_cast<int>(frame.frame_id) + 1, stream.size(), pipeline.keyframes(), frame, run.live->dropped});
     }
+    checkpoints.after_frame(pipeline, run);
     watch.add(frame, pipeline);
   }
   watch.decide();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/images/prefetching_reader.h"
+#include "running/checkpoint_clock.h"
 #include "running/ready_frame.h"
 #include "slam/calibration_search.h"
 #include "util/log.h"
@@ -28,12 +29,20 @@ bool must_stop(const RunOptions& options) { return options.stop != nullptr && op
 /// What ends a pass over the sequence.
 enum class PassEnd { kDone, kStopped, kBeginsAnew };
 
+/// What the search has come to.
+void note_search(const CalibrationSearch& search, SequenceRun& run) {
+  run.is_corrected = search.is_corrected();
+  run.proof = search.proof();
+  run.refused_correction = search.refusal();
+}
+
 /// One pass over the sequence with one calibration.
 class Pass {
  public:
-  Pass(const Dataset& dataset, const Calibration& calibration, const Settings& settings, const LogSink& log,
+  /// `run`: all but the result, with the calibration of this pass. It must outlive this.
+  Pass(const Dataset& dataset, SequenceRun& run, const Settings& settings, const LogSink& log,
        const RunOptions& options)
-      : dataset_(dataset), log_(log), pipeline_(calibration, settings, log, options.observer) {}
+      : dataset_(dataset), run_(run), log_(log), pipeline_(run.calibration, settings, log, options.observer) {}
 
   /// `search` hears of the first frames and says whether to go on. It must outlive this.
   void watch_for(CalibrationSearch& search, const SelfCalibrationSettings& settings) {
@@ -41,7 +50,7 @@ class Pass {
     watch_.emplace(search.calibration(), settings, pipeline_);
   }
 
-  PassEnd run(const RunOptions& options) {
+  PassEnd run(const RunOptions& options, CheckpointClock& checkpoints) {
     const FramePreprocessor& preprocessor = pipeline_.preprocessor();
     Reader reader(dataset_.size(),
                   [&](int index) { return make_ready([&] { return dataset_.read(index); }, preprocessor); });
@@ -55,6 +64,7 @@ class Pass {
       if (!item) break;
       const FrameRecord& frame = process(dataset_, pipeline_, *item);
       if (options.progress) options.progress({done, dataset_.size(), pipeline_.keyframes(), frame, 0});
+      checkpoints.after_frame(pipeline_, run_);
       if (watch_) watch_->add(frame, pipeline_);
       if (watch_ && watch_->is_over() && begins_anew()) return PassEnd::kBeginsAnew;
     }
@@ -68,11 +78,13 @@ class Pass {
   bool begins_anew() {
     const bool anew = search_->begins_anew(watch_->findings());
     watch_.reset();
+    note_search(*search_, run_);
     if (search_->is_corrected()) log_to(log_, LogLevel::kInfo, "the better calibration stands: " + search_->proof());
     return anew;
   }
 
   const Dataset& dataset_;
+  SequenceRun& run_;
   const LogSink& log_;
   Pipeline pipeline_;
   CalibrationSearch* search_ = nullptr;
@@ -90,11 +102,11 @@ void log_next(const CalibrationSearch& search, const Calibration& given, const L
 }
 
 /// A failure ends the pass where it is.
-PassEnd run_pass(Pass& pass, const RunOptions& options, std::string& error) {
+PassEnd run_pass(Pass& pass, const RunOptions& options, CheckpointClock& checkpoints, SequenceRun& run) {
   try {
-    return pass.run(options);
+    return pass.run(options, checkpoints);
   } catch (const std::exception& failure) {
-    error = failure.what();
+    run.error = failure.what();
     return PassEnd::kDone;
   }
 }
@@ -105,19 +117,18 @@ SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const
                          const RunOptions& options) {
   SequenceRun run;
   const Clock::time_point start = Clock::now();
+  CheckpointClock checkpoints(options);
   CalibrationSearch search(dataset.calibration(), settings.self_calibration);
   for (run.passes = 1;; ++run.passes) {
     run.calibration = search.calibration();
-    Pass pass(dataset, run.calibration, settings, log, options);
+    Pass pass(dataset, run, settings, log, options);
     if (search.is_open()) pass.watch_for(search, settings.self_calibration);
-    const PassEnd end = run_pass(pass, options, run.error);
+    const PassEnd end = run_pass(pass, options, checkpoints, run);
     if (end == PassEnd::kBeginsAnew) {
       log_next(search, dataset.calibration(), log);
       continue;
     }
-    run.is_corrected = search.is_corrected();
-    run.proof = search.proof();
-    run.refused_correction = search.refusal();
+    note_search(search, run);
     run.stopped = end == PassEnd::kStopped;
     run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.result = pass.finish();

@@ -22,10 +22,15 @@ struct RunProgress {
   int dropped = 0;  ///< Of `done`, those that came too fast (live runs).
 };
 
+struct SequenceRun;
+
 struct RunOptions {
   std::function<void(const RunProgress&)> progress;  ///< After each frame, on the calling thread.
   const std::atomic<bool>* stop = nullptr;           ///< Once true, the run ends after the frame it is at.
   std::shared_ptr<RunObserver> observer = nullptr;   ///< Hears of everything while it happens.
+  /// What has been computed so far, as if the run had been stopped there; on the calling thread, which it holds up.
+  std::function<void(SequenceRun)> checkpoint = nullptr;
+  double checkpoint_interval_s = 20;  ///< From one to the next, at least.
 };
 
 /// What became of frames that came at times of their own.

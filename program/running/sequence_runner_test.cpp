@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ldso/error.h"
@@ -33,6 +34,26 @@ TEST(SequenceRunner, GivesWhatSlamGives) {
   const auto expected = slam.finish().trajectory();
   const auto poses = offline.result.trajectory();
   ASSERT_GT(expected.size(), 10u);
+  ASSERT_EQ(poses.size(), expected.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].T_world_camera.matrix(), expected[i].T_world_camera.matrix());
+  }
+}
+
+TEST(SequenceRunner, CheckpointsAreTheRunSoFarAndChangeNothing) {
+  const SceneDataset dataset(30);
+  std::vector<SequenceRun> checkpoints;
+  RunOptions options;
+  options.checkpoint = [&](SequenceRun so_far) { checkpoints.push_back(std::move(so_far)); };
+  options.checkpoint_interval_s = 0;
+  const auto poses = run(dataset, options).result.trajectory(), expected = run(dataset).result.trajectory();
+  ASSERT_EQ(checkpoints.size(), 30u);
+  for (std::size_t i = 0; i < checkpoints.size(); ++i) {
+    EXPECT_EQ(checkpoints[i].result.frames.size(), i + 1);
+    EXPECT_TRUE(checkpoints[i].stopped);
+    EXPECT_EQ(checkpoints[i].calibration.camera.fx, dataset.calibration().camera.fx);
+  }
+  EXPECT_EQ(checkpoints.back().result.trajectory().size(), expected.size());
   ASSERT_EQ(poses.size(), expected.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(poses[i].T_world_camera.matrix(), expected[i].T_world_camera.matrix());
