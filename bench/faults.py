@@ -59,6 +59,7 @@ class Damage:
         self.shown = list(range(n))
         self.changes = {}  # position -> function of an image (floats) and the generator, or bytes of the file
         self.hides = False  # the frames that are changed show nothing of the scene
+        self.exposure = 1  # factor on the exposure time that is told with the frames that are changed
         self.gaps = {}  # position -> seconds added to the times from there on
         self.length = 0
 
@@ -70,7 +71,8 @@ class Damage:
         n, k = len(self.shown), self.start
         self.shown = [*range(k), *range((k + n) // 2, n), *range(k, (k + n) // 2)]
 
-    def change(self, seconds, function, hides=False):
+    def change(self, seconds, function, hides=False, exposure=1):
+        self.exposure = exposure
         self.length = max(1, round(seconds / self.sequence.interval))
         self.hides = hides
         for i in range(self.start, self.start + self.length):
@@ -93,7 +95,8 @@ class Damage:
             for k, i in enumerate(self.shown):
                 late += self.gaps.get(k, 0)
                 time = f"{k * self.sequence.interval + late:.9f}"
-                times.write(" ".join([f"{k:06d}", time, *self.sequence.times[i][2:]]) + "\n")
+                exposure = [float(x) * (self.exposure if k in self.changes else 1) for x in self.sequence.times[i][2:]]
+                times.write(" ".join([f"{k:06d}", time, *(f"{x:.6f}" for x in exposure)]) + "\n")
                 truth.write(" ".join([time, *self.sequence.truth[i][1:]]) + "\n")
                 self.write_image(folder / "images" / f"{k:06d}{self.sequence.images[i].suffix}", k, i, noise)
 
@@ -138,10 +141,12 @@ KINDS = {
     "hand_half": lambda d: d.change(1.3, hand(0.5)),
     "bright_2.5": lambda d: d.change(1, lambda a, r: 2.5 * a),
     "dim_8": lambda d: d.change(1, lambda a, r: a / 8),
+    "exposure_8": lambda d: d.change(1, lambda a, r: a / 8, exposure=1 / 8),
     "exposure_step": lambda d: d.change(1e6, lambda a, r: 0.4 * a),
     "flicker": lambda d: d.change(1, lambda a, r: a * r.uniform(0.5, 1.5)),
     "frozen_3": lambda d: d.freeze(3 * d.sequence.interval),
     "frozen_2s": lambda d: d.freeze(2),
+    "blur_4": lambda d: d.change(1, blur(4)),
     "blur_10": lambda d: d.change(1, blur(10)),
     "noise_40": lambda d: d.change(1, lambda a, r: a + 40 * r.standard_normal(a.shape)),
     "upside_down": lambda d: d.change(0.5, lambda a, r: a[::-1, ::-1], True),

@@ -118,6 +118,7 @@ struct TrackingSettings {
   double lost_rmse = 30;
   double least_in_view = 0.05;
   double least_agreement = 0.5;
+  double resume_agreement = 0.6;
 
   static constexpr auto fields() {
     using S = TrackingSettings;
@@ -132,6 +133,8 @@ struct TrackingSettings {
               in_range(0, 1), kExpert),
         field("least_agreement", &S::least_agreement,
               "Correlation of the contrast across the map's edges with what the image shows there, at least.",
+              in_range(-1, 1), kMeasured, kExpert),
+        field("resume_agreement", &S::resume_agreement, "The same of the first frame after others that were lost.",
               in_range(-1, 1), kMeasured, kExpert),
     };
   }

@@ -39,8 +39,9 @@ constexpr double kMostCutoffFactor = 50;
 constexpr double kLargestLogBrightness = 1.2;
 /// An offset of brightness beyond this is no change of a camera's brightness [grey levels].
 constexpr double kLargestOffset = 200;
-/// Levels, finest first, on which the structure of the images is compared.
-constexpr std::size_t kAgreementLevels = 3;
+/// Levels, finest first, on which the structure of the images is compared. What agrees on coarser ones alone is too
+/// blurred for its pose to be worth anything.
+constexpr std::size_t kAgreementLevels = 2;
 /// The correlation of fewer edges may be large by chance.
 constexpr int kLeastEdges = 30;
 /// Fewer points in view determine none of the eight parameters.
@@ -224,13 +225,13 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
   return result;
 }
 
-double CoarseTracker::agreement(const PreparedFrame& frame, const AlignmentResult& result) const {
+double CoarseTracker::agreement(const PreparedFrame& frame, const AlignmentResult& result, double wanted) const {
   double best = 0;
   const std::size_t levels = std::min({kAgreementLevels, map_.levels.size(), frame.pyramid.levels.size()});
-  for (std::size_t level = 0; level < levels && best < settings_.least_agreement; ++level) {
+  for (std::size_t level = 0; level < levels && best < wanted; ++level) {
     const StructureAgreement agreement = structure_agreement(
-        map_.levels[level], ref_frame_->pyramid.levels[level].view(), frame.pyramid.levels[level].view(),
-        level_intrinsics(camera_, static_cast<int>(level)), result.T_new_ref);
+        {map_.levels[level], ref_frame_->pyramid.levels[level].view(), frame.pyramid.levels[level].view(),
+         level_intrinsics(camera_, static_cast<int>(level)), result.T_new_ref});
     if (agreement.edges >= kLeastEdges) best = std::max(best, agreement.correlation);
   }
   return best;

@@ -45,9 +45,9 @@ class CoarseTracker {
   /// Pixel motion and brightness change of an aligned frame.
   FrameMotion motion(const PreparedFrame& frame, const AlignmentResult& result) const;
 
-  /// How much of the reference's structure an aligned frame shows: on the finest level, or, if that is less than the
-  /// setting `least_agreement`, on the next ones. Blur and noise take it from the finest first.
-  double agreement(const PreparedFrame& frame, const AlignmentResult& result) const;
+  /// How much of the reference's structure an aligned frame shows: on the finest level, or, if that is less than
+  /// `wanted`, on the next one. Blur and noise take it from the finest first.
+  double agreement(const PreparedFrame& frame, const AlignmentResult& result, double wanted) const;
 
   const CoarseDepthMap& depth_map() const { return map_; }
 

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/image_structure.h"
 #include "odometry/tracking/frame_record.h"
 #include "odometry/tracking/motion_hypotheses.h"
-#include "odometry/tracking/structure_agreement.h"
 
 namespace ldso {
 namespace {
 
 /// No image is read for longer than until the next; timestamps may waver.
 constexpr double kLargestReadoutShare = 2;
-
-/// Level on which an image that shows anything has gradients.
-constexpr std::size_t kStructureLevel = 2;
 
 /// Zero if the times say nothing.
 SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
@@ -25,6 +22,7 @@ SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
 }  // namespace
 
 void FrameTracker::start(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_frame_first, double seconds) {
+  is_lost_ = false;
   velocity_ = velocity_of(T_frame_first, seconds);
   last_frame_ = frame;
   last_time_ = frame->timestamp;
@@ -47,8 +45,7 @@ void FrameTracker::assume_even_motion(const Window& window) {
 
 TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest) {
   TrackedFrame tracked;
-  const std::size_t coarse = std::min(kStructureLevel, frame->pyramid.levels.size() - 1);
-  if (!has_structure(frame->pyramid.levels[coarse].view())) {
+  if (!has_structure(frame->pyramid)) {
     tracked.reason = "nothing is to be seen in the image";
     return tracked;
   }
@@ -62,7 +59,7 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
     tracked.reason = "no motion explains the image";
   } else if (tracked.alignment.in_view < settings_.least_in_view) {
     tracked.reason = "the image shows too little of the map";
-  } else if (aligner_.agreement(*frame, tracked.alignment) < settings_.least_agreement) {
+  } else if (aligner_.agreement(*frame, tracked.alignment, wanted_agreement()) < wanted_agreement()) {
     tracked.reason = "the image does not show what the map does";
   }
   if (!tracked.reason.empty()) return tracked;
@@ -74,6 +71,7 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
 
 void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result,
                             Keyframe& newest) {
+  is_lost_ = false;
   last_rmse_ = result.level_rmse;
   if (first_rmse_ <= 0) first_rmse_ = result.rmse();
   T_last_previous_ = result.T_new_ref * T_last_ref_.inverse();
@@ -90,6 +88,7 @@ void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, c
 void FrameTracker::lose() {
   T_last_previous_ = SE3d();
   last_rmse_.clear();
+  is_lost_ = true;
 }
 
 void FrameTracker::record_last(const Keyframe& newest, FrameRecord& record) const {
@@ -123,7 +122,7 @@ AlignmentResult FrameTracker::align_from(const std::vector<SE3d>& starts, const 
     if (!result.good || !(result.rmse() <= settings_.lost_rmse)) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
   }
-  best.good = best.good && aligner_.agreement(frame, best) >= settings_.least_agreement;
+  best.good = best.good && aligner_.agreement(frame, best, settings_.least_agreement) >= settings_.least_agreement;
   return best;
 }
 

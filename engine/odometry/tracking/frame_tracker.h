@@ -73,6 +73,8 @@ class FrameTracker {
 
  private:
   AlignmentResult align(const PreparedFrame& frame) const;
+  /// Near a pose that is wrong there is always something that looks alike: after a loss more has to agree.
+  double wanted_agreement() const { return is_lost_ ? settings_.resume_agreement : settings_.least_agreement; }
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);
 
   TrackingSettings settings_;
@@ -88,6 +90,7 @@ class FrameTracker {
   SE3d::Tangent velocity_ = SE3d::Tangent::Zero();
   Brightness last_brightness_;
   std::vector<double> last_rmse_;  ///< Of each level; empty: nothing to compare with.
+  bool is_lost_ = false;           ///< The last frame could not be tracked.
   double first_rmse_ = 0;          ///< Of the first frame aligned with the newest keyframe; 0: none yet.
 };
 

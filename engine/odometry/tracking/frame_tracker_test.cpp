@@ -118,6 +118,20 @@ TEST_F(FrameTrackerTest, WhatShowsNothingOfTheMapIsNotTracked) {
   EXPECT_EQ(tracker_.track(frames_[6], newest()).reason, "");
 }
 
+TEST_F(FrameTrackerTest, MoreHasToAgreeAfterALoss) {
+  TrackingSettings settings;
+  settings.resume_agreement = 1;
+  FrameTracker strict(settings, BrightnessPriors(PhotometrySettings{}, false), 0, pool_);
+  strict.start(frames_[4], T_newest_first(), 0.4);
+  strict.set_reference(window_);
+  strict.assume_even_motion(window_);
+  EXPECT_EQ(strict.track(frames_[5], newest()).reason, "");
+  strict.lose();
+  EXPECT_NE(strict.track(frames_[6], newest()).reason, "");
+  strict.start(frames_[4], T_newest_first(), 0.4);
+  EXPECT_EQ(strict.track(frames_[5], newest()).reason, "");
+}
+
 TEST_F(FrameTrackerTest, ANewMapIsNotComparedWithTheLastOne) {
   tracker_.track(frames_[5], newest());
   FrameRecord record;

@@ -1,6 +1,9 @@
 #include "odometry/tracking/structure_agreement.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "geometry/pinhole_projection.h"
@@ -14,11 +17,12 @@ constexpr int kStride = 4;
 /// Points on a weaker gradient are no edges [grey levels a pixel].
 constexpr float kLeastContrast = 2;
 
-/// Root mean square gradient of an image in which nothing is to be seen, at most [grey levels a pixel]. Noise of a grey
-/// level leaves 0.2 on the second coarser level, a room at a tenth of its usual light 1.
-constexpr double kLeastStructure = 0.3;
-/// Pixels of the coarse image of which every so many are looked at, in each direction.
-constexpr int kStructureStride = 2;
+/// Cells of the image in each direction, for the share of it that agrees.
+constexpr int kCells = 8;
+/// With fewer edges nothing is said of a cell.
+constexpr int kLeastEdgesOfCell = 3;
+/// Correlation beyond which a cell agrees.
+constexpr double kLeastCellCorrelation = 0.5;
 
 /// Pixel of the image that shows a pixel of the reference.
 class PixelTransfer {
@@ -38,47 +42,62 @@ class PixelTransfer {
   Eigen::Vector3d t_;
 };
 
-}  // namespace
-
-StructureAgreement structure_agreement(const AlignmentPoints& points, const ImageView<const Texel>& reference,
-                                       const ImageView<const Texel>& image, const PinholeIntrinsics& camera,
-                                       const SE3d& T_image_reference) {
-  const PixelTransfer transfer(camera, T_image_reference);
+struct ContrastSums {
   double products = 0, squares_reference = 0, squares_image = 0;
-  StructureAgreement agreement;
-  for (int i = 0; i < points.size(); i += kStride) {
-    const float u = points.u[i], v = points.v[i];
-    if (!is_interpolable(reference, u, v)) continue;
-    const Texel here = bilinear(reference, u, v);
+  int edges = 0;
+
+  void add(double reference, double image) {
+    products += reference * image;
+    squares_reference += reference * reference;
+    squares_image += image * image;
+    ++edges;
+  }
+  double correlation() const {
+    const double norm = std::sqrt(squares_reference * squares_image);
+    return norm > 0 ? products / norm : 0;
+  }
+};
+
+/// `use(pixel, reference, image)` for every edge in view of both: where the image shows it, and its contrast in both.
+template <typename Use>
+void for_edges(const StructureComparison& c, int stride, const Use& use) {
+  const PixelTransfer transfer(c.camera, c.T_image_reference);
+  for (int i = 0; i < c.points.size(); i += stride) {
+    const float u = c.points.u[i], v = c.points.v[i];
+    if (!is_interpolable(c.reference, u, v)) continue;
+    const Texel here = bilinear(c.reference, u, v);
     const Eigen::Vector2f gradient(here.dx, here.dy);
     const float contrast = gradient.norm();
     if (!(contrast > kLeastContrast)) continue;
-    const auto there = transfer(u, v, points.idepth[i]);
-    const auto across = transfer(u + gradient.x() / contrast, v + gradient.y() / contrast, points.idepth[i]);
-    if (!there || !across || !is_interpolable(image, there->x(), there->y())) continue;
-    const Texel seen = bilinear(image, there->x(), there->y());
-    const float seen_contrast = Eigen::Vector2f(seen.dx, seen.dy).dot(*across - *there);
-    products += contrast * seen_contrast;
-    squares_reference += contrast * contrast;
-    squares_image += seen_contrast * seen_contrast;
-    ++agreement.edges;
+    const auto there = transfer(u, v, c.points.idepth[i]);
+    const auto across = transfer(u + gradient.x() / contrast, v + gradient.y() / contrast, c.points.idepth[i]);
+    if (!there || !across || !is_interpolable(c.image, there->x(), there->y())) continue;
+    const Texel seen = bilinear(c.image, there->x(), there->y());
+    use(*there, contrast, Eigen::Vector2f(seen.dx, seen.dy).dot(*across - *there));
   }
-  const double norm = std::sqrt(squares_reference * squares_image);
-  agreement.correlation = norm > 0 ? products / norm : 0;
-  return agreement;
 }
 
-bool has_structure(const ImageView<const Texel>& image) {
-  double squares = 0;
-  int count = 0;
-  for (int y = 0; y < image.height; y += kStructureStride) {
-    for (int x = 0; x < image.width; x += kStructureStride) {
-      const Texel& texel = image.row(y)[x];
-      squares += texel.dx * texel.dx + texel.dy * texel.dy;
-      ++count;
-    }
-  }
-  return count > 0 && squares > kLeastStructure * kLeastStructure * count;
+}  // namespace
+
+StructureAgreement structure_agreement(const StructureComparison& comparison) {
+  ContrastSums sums;
+  for_edges(comparison, kStride, [&](const auto&, double reference, double image) { sums.add(reference, image); });
+  return {sums.correlation(), sums.edges};
+}
+
+double agreeing_share(const StructureComparison& comparison) {
+  std::array<ContrastSums, kCells * kCells> cells;
+  const auto cell = [](float position, int size) {
+    return std::clamp(static_cast<int>(kCells * position / static_cast<float>(size)), 0, kCells - 1);
+  };
+  for_edges(comparison, 1, [&](const Eigen::Vector2f& pixel, double reference, double image) {
+    const int row = cell(pixel.y(), comparison.image.height), column = cell(pixel.x(), comparison.image.width);
+    cells[static_cast<std::size_t>(row * kCells + column)].add(reference, image);
+  });
+  const auto agreeing = std::count_if(cells.begin(), cells.end(), [](const ContrastSums& sums) {
+    return sums.edges >= kLeastEdgesOfCell && sums.correlation() > kLeastCellCorrelation;
+  });
+  return static_cast<double>(agreeing) / static_cast<double>(cells.size());
 }
 
 }  // namespace ldso

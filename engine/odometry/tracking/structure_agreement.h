@@ -19,14 +19,18 @@ struct StructureAgreement {
   int edges = 0;  ///< That it was taken from: those in view of both.
 };
 
-/// `points`: of a level of the reference, with their inverse depths; `reference`, `image`: that level of both images;
-/// `camera`: of that level.
-StructureAgreement structure_agreement(const AlignmentPoints& points, const ImageView<const Texel>& reference,
-                                       const ImageView<const Texel>& image, const PinholeIntrinsics& camera,
-                                       const SE3d& T_image_reference);
+/// What is compared: one pyramid level of both images.
+struct StructureComparison {
+  const AlignmentPoints& points;  ///< Of the reference, with their inverse depths.
+  ImageView<const Texel> reference, image;
+  PinholeIntrinsics camera;
+  SE3d T_image_reference;
+};
 
-/// Whether there is anything to be seen: black, white and covered lenses show but noise. `image`: a coarse level, on
-/// which noise has been averaged out.
-bool has_structure(const ImageView<const Texel>& image);
+StructureAgreement structure_agreement(const StructureComparison& comparison);
+
+/// Share of the image, by its cells, in which what is seen agrees with the reference, 0 to 1. Noise agrees nowhere,
+/// though it is explained by any motion.
+double agreeing_share(const StructureComparison& comparison);
 
 }  // namespace ldso

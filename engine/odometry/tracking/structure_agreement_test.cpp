@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "odometry/test_synthetic_scene.h"
 
 namespace ldso {
@@ -27,9 +29,11 @@ class StructureAgreementTest : public testing::Test {
   static SE3d pose(int i) { return test::path_pose(kStep * i); }
   std::shared_ptr<const PreparedFrame> frame(int i) const { return scene_.render(i, pose(i)); }
 
+  StructureComparison comparison(const Image<Texel>& image, const SE3d& T_image_reference) const {
+    return {points_, reference_->pyramid.levels[0].view(), image.view(), scene_.camera(), T_image_reference};
+  }
   StructureAgreement agreement(const Image<Texel>& image, const SE3d& T_image_reference) const {
-    return structure_agreement(points_, reference_->pyramid.levels[0].view(), image.view(), scene_.camera(),
-                               T_image_reference);
+    return structure_agreement(comparison(image, T_image_reference));
   }
 
   test::SyntheticScene scene_;
@@ -71,16 +75,19 @@ TEST_F(StructureAgreementTest, AnImageWithoutStructureShowsNothing) {
   EXPECT_EQ(agreement(black, SE3d()).correlation, 0);
 }
 
-TEST_F(StructureAgreementTest, NoiseIsNoStructure) {
-  EXPECT_TRUE(has_structure(reference_->pyramid.levels[2].view()));
-  Image<Texel> noise(40, 30);
-  for (int y = 0; y < noise.height(); ++y) {
-    for (int x = 0; x < noise.width(); ++x) {
-      const float sign = (x / 2 + y / 2) % 2 == 0 ? 1.0f : -1.0f;
-      noise(x, y) = {100, 0.2f * sign, -0.2f * sign, 1};
-    }
+TEST_F(StructureAgreementTest, TheShareOfTheImageThatAgrees) {
+  const auto image = frame(3);
+  const SE3d truth = pose(3) * pose(0).inverse();
+  const double whole = agreeing_share(comparison(image->pyramid.levels[0], truth));
+  EXPECT_GT(whole, 0.6);
+  // Noise instead of three quarters of it: no stronger than what is seen there.
+  Image<Texel> covered = image->pyramid.levels[0];
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise(0, 6);
+  for (int y = 0; y < covered.height(); ++y) {
+    for (int x = covered.width() / 4; x < covered.width(); ++x) covered(x, y) = {100, noise(random), noise(random), 1};
   }
-  EXPECT_FALSE(has_structure(noise.view()));
+  EXPECT_LT(agreeing_share(comparison(covered, truth)), 0.4 * whole);
 }
 
 TEST_F(StructureAgreementTest, WhatIsOutOfViewSaysNothing) {
