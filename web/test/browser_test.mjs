@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
+import { isDeepStrictEqual } from 'node:util';
 
 import {
   GREEN, RED, WHITE, YELLOW, collectComplaints, figures, findChromium, finish, openBrowser, pixels,
