@@ -97,6 +97,12 @@ repeat_sequence() {
   reorder_sequence "$1" "$2" "[i for k in range($3) for i in (range(n) if k % 2 == 0 else range(n - 1, -1, -1))]" 0.1
 }
 
+# long_sequence FROM TO: so long that a run over it cannot be over before a signal comes. Sets `total`, its frames.
+long_sequence() {
+  repeat_sequence "$1" "$2" 200
+  total=$(find "$2/images" -name '*.*' | wc -l)
+}
+
 # stutter_sequence FROM TO EVERY INTERVAL: each EVERY-th image comes twice, as from a driver that had no new one.
 stutter_sequence() {
   reorder_sequence "$1" "$2" "[i for i in range(n) for _ in range(2 if i % $3 == $3 - 1 else 1)]" "$4" truth

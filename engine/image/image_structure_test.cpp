@@ -10,7 +10,7 @@
 namespace ldso {
 namespace {
 
-/// Mean of the squares of (2 radius + 1)^2 pixels.
+/// Each pixel the mean of the (2 radius + 1)^2 about it.
 Image<float> box_blurred(const Image<float>& image, int radius) {
   Image<float> result(image.width(), image.height());
   for (int y = 0; y < image.height(); ++y) {

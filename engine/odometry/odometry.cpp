@@ -95,14 +95,12 @@ void Odometry::initialize(const std::shared_ptr<const PreparedFrame>& frame, Odo
 
 bool Odometry::finds_start(const std::shared_ptr<const PreparedFrame>& frame) {
   const StageTimer timer(times_, "initialize");
-  const Initializer::Status status = initializer_->add(frame);
+  Initializer::Status status = initializer_->add(frame);
   if (status == Initializer::Status::kReady) {
     if (shows_enough(*initializer_->first_frame(), *frame, initializer_->result(), place_.camera)) return true;
     initializer_->reset();
-    waiting_.clear();
     initializer_->add(frame);
-    waiting_.add(frame);
-    return false;
+    status = Initializer::Status::kRestarted;
   }
   if (status == Initializer::Status::kRestarted) waiting_.clear();
   waiting_.add(frame);

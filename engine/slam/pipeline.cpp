@@ -28,11 +28,6 @@ double readout_s(const CameraCalibration& camera, const PinholeIntrinsics& recti
   return camera.readout_ms == 0 ? 0 : 1e-3 * camera.readout_ms * covered_rows(*make_camera_model(camera), rectified);
 }
 
-void sort_keyframes(std::vector<KeyframeUpdate>& keyframes) {
-  std::stable_sort(keyframes.begin(), keyframes.end(),
-                   [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
-}
-
 /// Fills `result.corrected`: keyframes that have none of the poses are moved by `correction`.
 void correct(const std::vector<KeyframePose>& poses, const Sim3d& correction, SlamResult& result) {
   std::map<std::int64_t, Sim3d> known;
@@ -159,15 +154,20 @@ std::optional<SE3d> Pipeline::T_world_camera() const {
   return SE3d(S.rotation() * T->rotation(), S * T->translation());
 }
 
+void Pipeline::complete(SlamResult& result) const {
+  std::stable_sort(result.keyframes.begin(), result.keyframes.end(),
+                   [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
+  result.camera = odometry_.camera();
+  result.restarts = odometry_.restarts();
+}
+
 SlamResult Pipeline::snapshot() {
   SlamResult result = result_;
   for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) {
     result.keyframes.push_back(std::move(keyframe.update));
     result.keyframes.back().constraints.clear();
   }
-  sort_keyframes(result.keyframes);
-  result.camera = odometry_.camera();
-  result.restarts = odometry_.restarts();
+  complete(result);
   if (!loops_) return result;
   KnownLoops known = loops_->known();
   if (!known.accepted.empty()) correct(known.poses, known.correction, result);
@@ -177,9 +177,7 @@ SlamResult Pipeline::snapshot() {
 
 SlamResult Pipeline::finish() {
   for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) finish_keyframe(std::move(keyframe));
-  sort_keyframes(result_.keyframes);
-  result_.camera = odometry_.camera();
-  result_.restarts = odometry_.restarts();
+  complete(result_);
   close_loops();
   add_times(times_, result_.stage_times);
   add_times(odometry_.times(), result_.stage_times);

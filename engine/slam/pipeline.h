@@ -60,6 +60,8 @@ class Pipeline {
   void finish_keyframe(FinishedKeyframe&& keyframe);
   /// Tells the observer, if there is one.
   void tell(const OdometryOutput& output, const std::shared_ptr<const PreparedFrame>& frame, double frame_ms);
+  /// What the odometry knows as a whole; all keyframes are in `result`.
+  void complete(SlamResult& result) const;
   /// Waits for loop closing and takes over what it found.
   void close_loops();
   /// Of the state of tracking: to the log and the result.

@@ -2,9 +2,11 @@
 // Results of a run that goes on, so that a cut in power or a killed process costs what was computed since, and no more.
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "output/run_files.h"
 
