@@ -43,6 +43,7 @@ bool shows_enough(const PreparedFrame& first, const PreparedFrame& current, cons
 Odometry::Odometry(const PinholeIntrinsics& camera, double readout_s, bool calibrated, const Settings& settings,
                    ThreadPool& pool)
     : settings_(settings),
+      calibrated_(calibrated),
       priors_(settings.photometry, calibrated),
       pool_(pool),
       place_{camera, readout_s, {}, 1},
@@ -50,6 +51,15 @@ Odometry::Odometry(const PinholeIntrinsics& camera, double readout_s, bool calib
       tracker_(settings.tracking, priors_, readout_s, pool),
       tracer_(settings.tracing, camera.width, camera.height, pool),
       keyframe_maker_(settings, priors_, pool, times_) {}
+
+std::unique_ptr<Odometry> Odometry::turned_back(ThreadPool& pool) const {
+  if (state_ != TrackingState::kTracked) return nullptr;
+  auto back = std::make_unique<Odometry>(camera(), place_.readout_s, calibrated_, settings_, pool);
+  back->window_ = window_.clone();
+  back->tracker_.turn_back(tracker_, back->window_);
+  back->state_ = state_;
+  return back;
+}
 
 std::vector<FinishedKeyframe> Odometry::window_keyframes() const {
   std::vector<FinishedKeyframe> keyframes = finish_all(window_);

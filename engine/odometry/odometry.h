@@ -40,6 +40,11 @@ class Odometry {
 
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
 
+  /// One that goes on with a copy of the window from the frame that was tracked last, but back the way that the camera
+  /// came: it expects the frames before that, newest first. Nothing if no frame is being tracked. `pool` must outlive
+  /// it.
+  std::unique_ptr<Odometry> turned_back(ThreadPool& pool) const;
+
   /// The keyframes still in the window, as they are.
   std::vector<FinishedKeyframe> window_keyframes() const;
 
@@ -75,6 +80,7 @@ class Odometry {
   Keyframe& newest() const { return *window_.keyframes.back(); }
 
   Settings settings_;
+  bool calibrated_;
   BrightnessPriors priors_;
   ThreadPool& pool_;
   StageTimes times_;

@@ -49,23 +49,36 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
       preprocessor_(calibration, validated(settings).photometry),
       pool_(settings.threads),
       odometry_(preprocessor_.output_camera(), readout_s(calibration.camera, preprocessor_.output_camera()),
-                preprocessor_.photometrically_calibrated(), settings, pool_) {
+                preprocessor_.photometrically_calibrated(), settings, pool_),
+      revision_(settings.revision, preprocessor_) {
   result_.camera = preprocessor_.output_camera();
   if (observer_) observer_->on_start(result_.camera);
   if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_);
 }
 
-const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame) {
+const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame,
+                                     const std::shared_ptr<const RawFrame>& raw) {
   const Clock::time_point start = Clock::now();
   OdometryOutput output = odometry_.process(frame);
   const double frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   times_.add("odometry", frame_ms);
   tell(output, frame, frame_ms);
-  for (FinishedKeyframe& keyframe : output.finished) finish_keyframe(std::move(keyframe));
+  RevisedStart revised = revision_.add(odometry_, raw, output);
   for (FrameRecord& late : output.late) replace(std::move(late));
+  apply(std::move(revised));
+  finish_keyframes(std::move(output.finished));
   note_change(output.frame);
   state_ = output.frame.state;
   return record(std::move(output.frame));
+}
+
+void Pipeline::apply(RevisedStart&& revised) {
+  if (!revised.verdict.empty()) log_to(log_, LogLevel::kInfo, revised.verdict);
+  for (FinishedKeyframe& keyframe : revised.keyframes) finish_keyframe(std::move(keyframe));
+  for (PosedFrame& frame : revised.frames) {
+    if (observer_) observer_->on_frame({frame.record, true, frame.T_world_camera});
+    replace(std::move(frame.record));
+  }
 }
 
 void Pipeline::tell(const OdometryOutput& output, const std::shared_ptr<const PreparedFrame>& frame, double frame_ms) {
@@ -80,6 +93,12 @@ void Pipeline::tell(const OdometryOutput& output, const std::shared_ptr<const Pr
   observer_->on_frame(std::move(event));
   for (const FrameRecord& late : output.late) observer_->on_frame({late, true, pose_in_world(window, late)});
   if (observer_->wants_view()) observer_->on_view(make_live_view(window, output.frame, frame));
+}
+
+void Pipeline::finish_keyframes(std::vector<FinishedKeyframe> keyframes) {
+  for (FinishedKeyframe& keyframe : keyframes) {
+    if (!revision_.replaces(keyframe.update)) finish_keyframe(std::move(keyframe));
+  }
 }
 
 void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
@@ -163,7 +182,12 @@ void Pipeline::complete(SlamResult& result) const {
 
 SlamResult Pipeline::snapshot() {
   SlamResult result = result_;
+  for (const FinishedKeyframe& keyframe : revision_.held()) {
+    result.keyframes.push_back(keyframe.update);
+    result.keyframes.back().constraints.clear();
+  }
   for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) {
+    if (revision_.replaces(keyframe.update)) continue;
     result.keyframes.push_back(std::move(keyframe.update));
     result.keyframes.back().constraints.clear();
   }
@@ -176,11 +200,14 @@ SlamResult Pipeline::snapshot() {
 }
 
 SlamResult Pipeline::finish() {
-  for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) finish_keyframe(std::move(keyframe));
+  apply(revision_.finish(odometry_));
+  finish_keyframes(odometry_.window_keyframes());
   complete(result_);
   close_loops();
   add_times(times_, result_.stage_times);
   add_times(odometry_.times(), result_.stage_times);
+  if (revision_.milliseconds() > 0)
+    result_.stage_times["revision"] = {1, revision_.milliseconds(), revision_.milliseconds()};
   return std::move(result_);
 }
 

@@ -16,6 +16,7 @@
 #include "ldso/slam.h"
 #include "odometry/odometry.h"
 #include "slam/loop_thread.h"
+#include "slam/start_revision.h"
 #include "util/stopwatch.h"
 #include "util/thread_pool.h"
 
@@ -30,11 +31,16 @@ class Pipeline {
   /// May be used from other threads while the pipeline works.
   const FramePreprocessor& preprocessor() const { return preprocessor_; }
 
-  /// Frames come in their order in time; ids must not repeat.
-  const FrameRecord& process(const std::shared_ptr<const PreparedFrame>& frame);
+  /// Frames come in their order in time; ids must not repeat. `raw`: what `frame` was prepared from; without it the
+  /// first frames of a map are not revised.
+  const FrameRecord& process(const std::shared_ptr<const PreparedFrame>& frame,
+                             const std::shared_ptr<const RawFrame>& raw = {});
 
   /// A frame that cannot be used: recorded with its reason, the next one is tracked as if it had not been.
   const FrameRecord& skip(std::int64_t frame_id, double timestamp, const std::string& reason);
+
+  /// While the run may begin anew, the first frames need no better poses.
+  void postpone_revision(bool postponed) { revision_.postpone(postponed); }
 
   /// Pose of the newest frame, if it is tracked: the odometry's with the correction of the loops closed up to a fixed
   /// number of keyframes ago.
@@ -57,7 +63,11 @@ class Pipeline {
   const FrameRecord& record(FrameRecord frame);
   /// What was said of an earlier frame is superseded.
   void replace(FrameRecord late);
+  /// Those that no others have replaced.
+  void finish_keyframes(std::vector<FinishedKeyframe> keyframes);
   void finish_keyframe(FinishedKeyframe&& keyframe);
+  /// Takes over what the revision has decided.
+  void apply(RevisedStart&& revised);
   /// Tells the observer, if there is one.
   void tell(const OdometryOutput& output, const std::shared_ptr<const PreparedFrame>& frame, double frame_ms);
   /// What the odometry knows as a whole; all keyframes are in `result`.
@@ -72,6 +82,7 @@ class Pipeline {
   FramePreprocessor preprocessor_;
   ThreadPool pool_;
   Odometry odometry_;
+  StartRevision revision_;
   std::unique_ptr<LoopThread> loops_;  ///< None with loop closing off.
   StageTimes times_;
   SlamResult result_;

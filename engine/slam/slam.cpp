@@ -47,19 +47,19 @@ FrameRecord Slam::Impl::process(ImageView<const T> image, float to_grey_levels, 
   if (!std::isfinite(timestamp)) throw Error(name, "its timestamp is not finite", "give seconds");
   if (image.data == nullptr) throw Error(name, "it has no pixels", "pass an image of the calibration's size");
   pipeline.preprocessor().check_size(name, image.width, image.height);
-  RawFrame raw;
-  raw.id = next_id;
-  raw.timestamp = timestamp;
-  raw.exposure_ms = exposure_ms;
-  raw.name = name;
-  raw.grey = to_grey(image, to_grey_levels);
+  auto raw = std::make_shared<RawFrame>();
+  raw->id = next_id;
+  raw->timestamp = timestamp;
+  raw->exposure_ms = exposure_ms;
+  raw->name = name;
+  raw->grey = to_grey(image, to_grey_levels);
   std::shared_ptr<const PreparedFrame> prepared;
   {
     const StageTimer timer(pipeline.times(), "preprocess");
-    prepared = std::make_shared<const PreparedFrame>(pipeline.preprocessor().process(raw));
+    prepared = std::make_shared<const PreparedFrame>(pipeline.preprocessor().process(*raw));
   }
   ++next_id;
-  return pipeline.process(prepared);
+  return pipeline.process(prepared, raw);
 }
 
 Slam::Slam(const Calibration& calibration, const Settings& settings, LogSink log, std::shared_ptr<RunObserver> observer)

@@ -72,6 +72,31 @@ struct SelfCalibrationSettings {
   }
 };
 
+/// New poses and points for the first frames of a map, once it is mature.
+struct RevisionSettings {
+  bool enabled = true;
+  int frames = 150;
+  int least_frames = 30;
+  int patience = 75;
+  double most_residual = 0.97;
+
+  static constexpr auto fields() {
+    using S = RevisionSettings;
+    return std::tuple{
+        field("enabled", &S::enabled, "Go back to the first frames once the map is mature, and give them new poses."),
+        field("frames", &S::frames, "Age at which a map is mature.", in_range(2, 100000), in_unit("frames"), kMeasured),
+        field("least_frames", &S::least_frames, "The same where the images end.", in_range(2, 100000),
+              in_unit("frames"), kExpert),
+        field("patience", &S::patience, "Frames from then on until the new poses count; meanwhile they are computed.",
+              in_range(1, 100000), in_unit("frames"), kExpert),
+        field("most_residual", &S::most_residual,
+              "Most that the residuals of the first frames may then be, relative to those that they had: else the old "
+              "poses stay.",
+              at_least(0), kMeasured, kExpert),
+    };
+  }
+};
+
 /// All settings. Defaults are the published ones unless measured better.
 struct Settings {
   int threads = 2;
@@ -83,6 +108,7 @@ struct Settings {
   TracingSettings tracing;
   KeyframeSettings keyframes;
   WindowSettings window;
+  RevisionSettings revision;
   LoopSettings loops;
 
   static constexpr auto fields() {
@@ -99,6 +125,7 @@ struct Settings {
         field("keyframes", &S::keyframes,
               "When a frame becomes a keyframe and which keyframes leave the window (DSO 3.1)."),
         field("window", &S::window, "Sliding-window bundle adjustment and marginalization (DSO 2.3)."),
+        field("revision", &S::revision, "New poses and points for the first frames of a map, once it is mature."),
         field("loops", &S::loops, "Loop closing (LDSO III-C, III-D)."),
     };
   }

@@ -11,6 +11,7 @@
 namespace ldso {
 
 struct ReadyFrame {
+  std::shared_ptr<const RawFrame> raw;
   std::shared_ptr<const PreparedFrame> frame;
   double decode_ms = 0;
   double preprocess_ms = 0;

@@ -48,6 +48,7 @@ class Pass {
   void watch_for(CalibrationSearch& search, const SelfCalibrationSettings& settings) {
     search_ = &search;
     watch_.emplace(search.calibration(), settings, pipeline_);
+    pipeline_.postpone_revision(true);
   }
 
   PassEnd run(const RunOptions& options, CheckpointClock& checkpoints) {
@@ -78,6 +79,7 @@ class Pass {
   bool begins_anew() {
     const bool anew = search_->begins_anew(watch_->findings());
     watch_.reset();
+    pipeline_.postpone_revision(false);
     note_search(*search_, run_);
     if (search_->is_corrected()) log_to(log_, LogLevel::kInfo, "the better calibration stands: " + search_->proof());
     return anew;

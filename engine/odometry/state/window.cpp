@@ -30,6 +30,18 @@ void Window::forget(const Keyframe& target) {
   }
 }
 
+Window Window::clone() const {
+  Window copy;
+  static_cast<WindowVariables&>(copy) = *this;
+  for (const auto& keyframe : keyframes) copy.keyframes.push_back(std::make_unique<Keyframe>(*keyframe));
+  for (auto& host : copy.keyframes) {
+    for (ActivePoint& point : host->points) {
+      for (PointResidual& residual : point.residuals) residual.target = copy.keyframes[residual.target->index].get();
+    }
+  }
+  return copy;
+}
+
 void Window::drop_newest() {
   forget(*keyframes.back());
   keyframes.pop_back();

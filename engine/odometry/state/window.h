@@ -15,7 +15,8 @@ namespace ldso {
 
 using CameraVector = Eigen::Matrix<double, kCameraDof, 1>;
 
-struct Window {
+/// All of a window but its keyframes.
+struct WindowVariables {
   int width = 0;
   int height = 0;
   double readout_s = 0;                            ///< Of a rolling shutter, first row to last; 0: global shutter.
@@ -23,12 +24,15 @@ struct Window {
   CameraVector camera_lin = CameraVector::Zero();  ///< Where Jacobians are taken.
   CameraVector camera_backup = CameraVector::Zero();
   CameraVector camera_prior = CameraVector::Zero();  ///< Precision of a prior around camera_lin.
-  std::vector<std::unique_ptr<Keyframe>> keyframes;  ///< Oldest first.
   WindowPrior prior;
   Eigen::MatrixXd hessian;  ///< Of all variables, inverse depths eliminated, at the last optimization.
   double rmse = 0;          ///< Of the inliers at the last optimization [grey levels].
   int front = 0;            ///< Which of the two linearizations in each residual is the accepted one.
   Eigen::Vector3d held_center = Eigen::Vector3d::Zero();  ///< In the world: where the map's first keyframe is held.
+};
+
+struct Window : WindowVariables {
+  std::vector<std::unique_ptr<Keyframe>> keyframes;  ///< Oldest first.
 
   int size() const { return static_cast<int>(keyframes.size()); }
   int dim() const { return kCameraDof + kFrameDof * size(); }
@@ -59,6 +63,9 @@ struct Window {
 
   /// Takes out all residuals into `target`.
   void forget(const Keyframe& target);
+
+  /// A window of its own with the same state; images are shared.
+  Window clone() const;
 
   /// Takes out the newest keyframe as if it had never been appended. Nothing may have been marginalized since.
   void drop_newest();

@@ -43,6 +43,18 @@ void FrameTracker::assume_even_motion(const Window& window) {
   last_step_s_ = (newest.frame->timestamp - first.frame->timestamp) / frames;
 }
 
+void FrameTracker::turn_back(const FrameTracker& from, const Window& window) {
+  set_reference(window);
+  T_last_ref_ = from.T_last_ref_;
+  T_last_previous_ = from.T_last_previous_.inverse();
+  last_step_s_ = -from.last_step_s_;
+  last_frame_ = from.last_frame_;
+  last_time_ = from.last_time_;
+  velocity_ = from.velocity_;
+  last_brightness_ = from.last_brightness_;
+  last_rmse_ = from.last_rmse_;
+}
+
 TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest) {
   TrackedFrame tracked;
   if (!has_structure(frame->pyramid)) {

@@ -40,6 +40,10 @@ class FrameTracker {
   /// The motion from one frame to the next, as if the window's first keyframe had moved evenly to its newest.
   void assume_even_motion(const Window& window);
 
+  /// Goes on from where another one is, which works on `window` or on one like it, but back the way that it came:
+  /// `window` becomes the reference, and the motion to be expected is that of the last frames reversed.
+  void turn_back(const FrameTracker& from, const Window& window);
+
   /// Aligns a frame with the newest keyframe of the window, which set_reference() was given, and remembers what it
   /// found. If the last tracked frame was that keyframe, its velocity takes account of the motion since.
   TrackedFrame track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest);

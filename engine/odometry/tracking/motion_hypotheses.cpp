@@ -19,7 +19,7 @@ constexpr std::array<double, 4> kAngles = {0.02, 0.03, 0.05, 0.08};
 
 double step_ratio(double seconds, double last_seconds) {
   const double ratio = seconds / last_seconds;
-  if (!(seconds > 0) || !(last_seconds > 0) || !std::isfinite(ratio)) return 1;
+  if (!(ratio > 0) || !std::isfinite(ratio)) return 1;
   if (ratio <= kMostUneven && ratio >= 1 / kMostUneven) return 1;
   return std::min(ratio, kMostSteps);
 }

@@ -10,7 +10,8 @@ namespace ldso {
 
 /// How many times as long as the step before it a step of `seconds` is: as many times as far the camera goes if it
 /// moves on as it did. 1 to the last bit for steps that may be even: cameras take images at even times, but the
-/// timestamps they give them waver. 1 as well if the times say nothing (not rising, not finite), and never so large
+/// timestamps they give them waver. 1 as well if the times say nothing (rising and falling, not
+/// finite), and never so large
 /// that it would be a guess: after a long gap nothing is known of the motion.
 double step_ratio(double seconds, double last_seconds);
 

@@ -78,6 +78,11 @@ TEST(StepRatio, IsThatOfTheTimesWhereAFrameIsMissing) {
 
 TEST(StepRatio, IsNoGuessAfterALongGap) { EXPECT_EQ(step_ratio(100, 0.1), step_ratio(1, 0.1)); }
 
+TEST(StepRatio, IsThatOfTheTimesGoingBack) {
+  EXPECT_DOUBLE_EQ(step_ratio(-0.2, -0.1), 2);
+  EXPECT_EQ(step_ratio(-0.1, -0.1), 1);
+}
+
 TEST(StepRatio, IsOneWhereTheTimesSayNothing) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const double seconds : {0.0, -0.1, kNaN, std::numeric_limits<double>::infinity()}) {

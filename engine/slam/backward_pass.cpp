@@ -1,0 +1,119 @@
+#include "slam/backward_pass.h"
+
+#include <map>
+#include <ranges>
+#include <set>
+#include <utility>
+
+#include "odometry/tracking/frame_record.h"
+
+namespace ldso {
+namespace {
+
+/// Frames in a row that may fail before the camera is given up as lost.
+constexpr int kForgivenFrames = 3;
+
+/// A constraint as the other keyframe has it: exp(x) T inverted is exp(-Ad(T^-1) x) T^-1.
+KeyframeConstraint reversed(std::int64_t keyframe_id, const KeyframeConstraint& constraint) {
+  const SE3d T_other_this = constraint.T_this_other.inverse();
+  const Sim3d::Jacobian A = Sim3d(T_other_this).adjoint();
+  return {keyframe_id, T_other_this, A * constraint.covariance * A.transpose()};
+}
+
+/// Keyframes that left the window of a pass.
+class PassKeyframes {
+ public:
+  explicit PassKeyframes(const Window& window) {
+    for (const auto& keyframe : window.keyframes) given_.insert(keyframe->frame.get());
+  }
+
+  /// Where a frame that was a keyframe before has become one again, the new one counts: frames were tracked with that.
+  void add(std::vector<FinishedKeyframe> finished) {
+    for (FinishedKeyframe& keyframe : finished) {
+      const bool is_given = given_.contains(keyframe.frame.get());
+      const auto [it, is_first] = by_id_.try_emplace(keyframe.update.frame_id);
+      if (is_first || !is_given) it->second = std::move(keyframe);
+    }
+  }
+
+  const SE3d& T_world_camera(std::int64_t id) const { return by_id_.at(id).update.T_world_camera; }
+
+  /// A keyframe that the pass began with was tracked like other frames: that is where it is. Whether it is one.
+  bool move_given(std::int64_t id, const SE3d& T_world_camera) {
+    const auto it = by_id_.find(id);
+    if (it == by_id_.end() || !given_.contains(it->second.frame.get())) return false;
+    it->second.update.T_world_camera = T_world_camera;
+    moved_.insert(id);
+    return true;
+  }
+
+  /// Those older than keyframe `turn`, newest first. The others exist outside of the pass as well; what they know of
+  /// where the older ones are goes over to these.
+  std::vector<FinishedKeyframe> take_older(std::int64_t turn) {
+    const auto end = by_id_.lower_bound(turn);
+    for (auto& [id, keyframe] : by_id_) {
+      for (KeyframeConstraint& constraint : keyframe.update.constraints) {
+        const auto other = by_id_.find(constraint.keyframe_id);
+        if (other == by_id_.end()) continue;
+        if (moved_.contains(id) || moved_.contains(other->first)) {
+          constraint.T_this_other = keyframe.update.T_world_camera.inverse() * other->second.update.T_world_camera;
+        }
+        if (id >= turn && other->first < turn) other->second.update.constraints.push_back(reversed(id, constraint));
+      }
+    }
+    std::vector<FinishedKeyframe> older;
+    for (auto& [id, keyframe] : std::views::reverse(std::ranges::subrange(by_id_.begin(), end))) {
+      older.push_back(std::move(keyframe));
+    }
+    return older;
+  }
+
+ private:
+  std::set<const PreparedFrame*> given_;  ///< Images of the keyframes that the pass began with.
+  std::set<std::int64_t> moved_;          ///< Of those, the ones that have been tracked.
+  std::map<std::int64_t, FinishedKeyframe> by_id_;
+};
+
+/// Tracks the frames until the camera is lost; their records, newest first.
+std::vector<FrameRecord> track_back(Odometry& back, std::span<const PackedFrame> frames,
+                                    const FramePreprocessor& preprocessor, const std::stop_token& stop,
+                                    PassKeyframes& keyframes) {
+  std::vector<FrameRecord> records;
+  int lost = 0;
+  for (const PackedFrame& packed : std::views::reverse(frames)) {
+    if (stop.stop_requested()) break;
+    OdometryOutput output = back.process(std::make_shared<const PreparedFrame>(preprocessor.process(packed.unpack())));
+    keyframes.add(std::move(output.finished));
+    if (back.restarts() > 0) break;
+    lost = output.frame.state == TrackingState::kTracked ? 0 : lost + 1;
+    if (lost > kForgivenFrames) break;
+    if (lost == 0) records.push_back(std::move(output.frame));
+  }
+  keyframes.add(back.window_keyframes());
+  return records;
+}
+
+}  // namespace
+
+BackwardPass pass_back(Odometry& back, std::span<const PackedFrame> frames, const FramePreprocessor& preprocessor,
+                       const std::stop_token& stop) {
+  const std::int64_t turn = back.window().keyframes.back()->id();
+  PassKeyframes keyframes(back.window());
+  std::vector<FrameRecord> records = track_back(back, frames, preprocessor, stop, keyframes);
+  BackwardPass pass;
+  pass.T_world_turn = keyframes.T_world_camera(turn);
+  for (FrameRecord& record : records) {
+    if (record.frame_id >= turn) continue;
+    const SE3d T_world_camera = keyframes.T_world_camera(record.keyframe_id) * record.T_keyframe_frame;
+    if (record.keyframe_id >= turn) {
+      record.keyframe_id = turn;
+      record.T_keyframe_frame = pass.T_world_turn.inverse() * T_world_camera;
+    }
+    if (keyframes.move_given(record.frame_id, T_world_camera)) record_keyframe(record);
+    pass.frames.push_back({std::move(record), T_world_camera});
+  }
+  pass.keyframes = keyframes.take_older(turn);
+  return pass;
+}
+
+}  // namespace ldso

@@ -1,0 +1,178 @@
+#include "slam/start_revision.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+
+#include "util/median.h"
+
+namespace ldso {
+namespace {
+
+/// Frames before the map began that are kept, to be given poses as well.
+constexpr int kMostWaiting = 100;
+
+/// Of a pass to those without it, in percent, for the log.
+std::string percent(double ratio) {
+  return (ratio < 1 ? "-" : "+") + std::to_string(std::lround(100 * std::abs(ratio - 1))) + " %";
+}
+
+}  // namespace
+
+StartRevision::StartRevision(const RevisionSettings& settings, const FramePreprocessor& preprocessor)
+    : settings_(settings), preprocessor_(preprocessor), stage_(settings.enabled ? Stage::kCollecting : Stage::kIdle) {}
+
+StartRevision::~StartRevision() { thread_.request_stop(); }
+
+RevisedStart StartRevision::add(const Odometry& odometry, const std::shared_ptr<const RawFrame>& raw,
+                                OdometryOutput& output) {
+  if (!settings_.enabled) return {};
+  RevisedStart revised;
+  if (odometry.restarts() > restarts_) revised = change_map(odometry, output);
+  const bool is_tracked = output.frame.state == TrackingState::kTracked;
+  if (stage_ == Stage::kIdle && is_tracked) {
+    images_.clear();
+    records_.clear();
+    return revised;
+  }
+  if (stage_ == Stage::kIdle || stage_ == Stage::kCollecting) collect(raw, output);
+  if (stage_ == Stage::kIdle) return revised;
+  hold(output);
+  if (!odometry.window().keyframes.empty()) ++frames_;
+  if (stage_ == Stage::kPassing && frames_ >= settings_.patience) return decide(odometry);
+  if (stage_ == Stage::kCollecting && frames_ >= settings_.frames) turn(odometry);
+  if (stage_ == Stage::kTurned && !is_postponed_) begin_pass();
+  return revised;
+}
+
+RevisedStart StartRevision::finish(const Odometry& odometry) {
+  if (stage_ == Stage::kCollecting && frames_ >= settings_.least_frames) turn(odometry);
+  if (stage_ == Stage::kTurned) begin_pass();
+  return stage_ == Stage::kPassing ? decide(odometry) : release();
+}
+
+RevisedStart StartRevision::change_map(const Odometry& odometry, OdometryOutput& output) {
+  restarts_ = odometry.restarts();
+  hold(output);
+  if (stage_ == Stage::kTurned) begin_pass();
+  RevisedStart revised = stage_ == Stage::kPassing ? decide(odometry) : release();
+  stage_ = Stage::kCollecting;
+  frames_ = 0;
+  return revised;
+}
+
+void StartRevision::collect(const std::shared_ptr<const RawFrame>& raw, const OdometryOutput& output) {
+  if (raw) {
+    images_.emplace_back(*raw);
+    records_.push_back(output.frame);
+  }
+  for (const FrameRecord& late : output.late) {
+    const auto same = std::find_if(records_.rbegin(), records_.rend(),
+                                   [&](const FrameRecord& record) { return record.frame_id == late.frame_id; });
+    if (same != records_.rend()) *same = late;
+  }
+  const auto most = static_cast<std::size_t>(frames_) + kMostWaiting;
+  if (images_.size() > most) {
+    images_.erase(images_.begin());
+    records_.erase(records_.begin());
+  }
+}
+
+void StartRevision::hold(OdometryOutput& output) {
+  std::move(output.finished.begin(), output.finished.end(), std::back_inserter(held_));
+  output.finished.clear();
+}
+
+void StartRevision::turn(const Odometry& odometry) {
+  back_ = odometry.turned_back(pool_);
+  if (!back_ || images_.empty()) return;
+  turn_ = odometry.window().keyframes.back()->id();
+  segment_ = restarts_;
+  is_accepted_ = false;
+  images_.pop_back();  // The frame at which it turns back.
+  stage_ = Stage::kTurned;
+}
+
+void StartRevision::begin_pass() {
+  stage_ = Stage::kPassing;
+  frames_ = 0;
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      pass_ = pass_back(*back_, images_, preprocessor_, stop);
+    } catch (const std::exception& failure) {
+      failure_ = failure.what();
+    }
+    back_.reset();
+    images_ = {};
+    milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  });
+}
+
+RevisedStart StartRevision::decide(const Odometry& odometry) {
+  thread_.join();
+  stage_ = Stage::kIdle;
+  frames_ = 0;
+  BackwardPass pass = std::exchange(pass_, {});
+  const Judgement judgement = judge(pass);
+  records_.clear();
+  RevisedStart revised = judgement.is_better ? accept(odometry, std::move(pass)) : release();
+  revised.verdict = judgement.is_better ? "the mature map gives the first " + std::to_string(revised.frames.size()) +
+                                              " frames new poses"
+                                        : "the first frames keep their poses";
+  revised.verdict += ": going back, " + judgement.reason;
+  return revised;
+}
+
+RevisedStart StartRevision::accept(const Odometry& odometry, BackwardPass pass) {
+  const SE3d T_now_then = T_world_turn(odometry) * pass.T_world_turn.inverse();
+  for (FinishedKeyframe& keyframe : pass.keyframes) {
+    keyframe.update.segment = segment_;
+    keyframe.update.T_world_camera = T_now_then * keyframe.update.T_world_camera;
+  }
+  for (PosedFrame& frame : pass.frames) frame.T_world_camera = T_now_then * frame.T_world_camera;
+  is_accepted_ = true;
+  std::erase_if(held_, [this](const FinishedKeyframe& held) { return replaces(held.update); });
+  held_.insert(held_.begin(), std::make_move_iterator(pass.keyframes.begin()),
+               std::make_move_iterator(pass.keyframes.end()));
+  RevisedStart revised = release();
+  revised.frames = std::move(pass.frames);
+  return revised;
+}
+
+StartRevision::Judgement StartRevision::judge(const BackwardPass& pass) const {
+  if (!failure_.empty()) return {false, failure_};
+  std::unordered_map<std::int64_t, float> passed;
+  for (const PosedFrame& frame : pass.frames) passed[frame.record.frame_id] = frame.record.residual_rmse;
+  std::vector<float> ratios;
+  for (const FrameRecord& record : records_) {
+    if (record.state != TrackingState::kTracked || record.frame_id >= turn_) continue;
+    const auto found = passed.find(record.frame_id);
+    if (found == passed.end()) return {false, "frame " + std::to_string(record.frame_id) + " is lost"};
+    if (record.residual_rmse > 0 && found->second > 0) ratios.push_back(found->second / record.residual_rmse);
+  }
+  if (ratios.empty()) return {false, "there are none to compare"};
+  const double ratio = upper_median(ratios);
+  return {ratio <= settings_.most_residual, "residuals differ by " + percent(ratio)};
+}
+
+SE3d StartRevision::T_world_turn(const Odometry& odometry) const {
+  for (const auto& keyframe : odometry.window().keyframes) {
+    if (keyframe->id() == turn_) return keyframe->state.T_c_w().inverse();
+  }
+  const auto left = std::find_if(held_.begin(), held_.end(), [this](const FinishedKeyframe& held) {
+    return held.update.segment == segment_ && held.update.frame_id == turn_;
+  });
+  return left->update.T_world_camera;  // It is in the window, or has left it since the pass began.
+}
+
+RevisedStart StartRevision::release() {
+  RevisedStart revised;
+  revised.keyframes = std::exchange(held_, {});
+  return revised;
+}
+
+}  // namespace ldso
