@@ -7,6 +7,9 @@
 namespace ldso {
 namespace {
 
+/// No name is longer. The time goes with the product of both lengths, and a damaged file may have anything as a name.
+constexpr std::size_t kMostCharacters = 100;
+
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -24,7 +27,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
+std::string nearest_name(const std::string& text, const std::vector<std::string>& names) {
+  const std::string name = text.substr(0, kMostCharacters);
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/text/json_text.h"
 #include "ldso/error.h"
 #include "output/run_files.h"
 #include "util/whole_file.h"
@@ -38,7 +39,7 @@ FinishedRun read_finished_run(const fs::path& folder) {
   FinishedRun run;
   run.folder = folder;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = parse_json<Json>(read_file(path), path.string());
     const Json& sequence = json.at("sequence");
     run.sequence = sequence.at("path").get<std::string>();
     run.options = options_of(sequence);

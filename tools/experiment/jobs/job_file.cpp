@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/text/json_text.h"
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
@@ -47,7 +48,7 @@ JobMetric parse_job_metric(const std::string& name) {
 
 void write_job(const fs::path& folder, const ExperimentJob& job) {
   create_folder(folder);
-  write_file(folder / kFileName, json_of(job).dump(2) + "\n");
+  write_file(folder / kFileName, json_text(json_of(job), 2) + "\n");
 }
 
 bool has_job(const fs::path& folder) {
@@ -63,7 +64,7 @@ ExperimentJob read_job(const fs::path& folder) {
   const fs::path path = folder / kFileName;
   const std::string text = read_file(path);
   try {
-    return job_of(Json::parse(text));
+    return job_of(parse_json<Json>(text, path.string()));
   } catch (const Json::exception& error) {
     throw Error(path.string(), std::string("is not the description of a job (") + error.what() + ")",
                 "remove the folder of the job; the experiment makes it again");

@@ -183,6 +183,9 @@ TEST(PlanFile, MistakesInDatasetsAreNamedWithTheirLine) {
       {"datasets: {tum: {root: /d, sequences: [{name: a, strat: 3}]}}\n", "unknown key 'strat'", "'start'?"},
       {"datasets: {tum: {root: /d, fps: -1, sequences: [a]}}\n", "'fps' is '-1'", "above 0"},
       {"datasets: {tum: {root: /d, end: 0, sequences: [a]}}\n", "'end' leaves no frame", "count from 1"},
+      {"settings: &a {b: *a}\ndatasets: {d: {sequences: [s]}}\n", "contains itself", "without aliases"},
+      {"repetitions: 2000000000\ndatasets: {tum: {sequences: [a]}}\n", "'repetitions' is '2000000000'", "to 100000"},
+      {"repetitions: 60000\ndatasets: {tum: {sequences: [a, b]}}\n", "more than 100000 jobs", "fewer"},
       {"datasets: {tum: {root: /d, metric: rmse, sequences: [a]}}\n", "'metric' is 'rmse'", "ate or tum_mono"},
   };
   for (const BadPlan& plan : bad) {

@@ -1,6 +1,7 @@
 #include "experiment/results/results_file.h"
 
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "experiment/jobs/job_file.h"
 #include "experiment/results/csv.h"
+#include "io/text/json_text.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
@@ -74,7 +76,7 @@ JobResult result_of(const Json& json) {
 std::vector<JobResult> read_json(const fs::path& path) {
   std::vector<JobResult> jobs;
   try {
-    for (const Json& json : Json::parse(read_file(path))) jobs.push_back(result_of(json));
+    for (const Json& json : parse_json<Json>(read_file(path), path.string())) jobs.push_back(result_of(json));
   } catch (const Json::exception& error) {
     throw Error(path.string() + ", job " + std::to_string(jobs.size() + 1), std::string("is damaged: ") + error.what(),
                 "a results.json of `ldso experiment summarize` is expected");
@@ -96,10 +98,10 @@ Json json_of(const CsvRow& head, const CsvRow& row) {
       json[head[i]] = row[i];
     } else if (head[i] == "loops" || head[i] == "reverse") {
       json[head[i]] = row[i] == "yes";
-    } else if (parse_number(row[i], value)) {
+    } else if (parse_number(row[i], value) && std::isfinite(value)) {
       json[head[i]] = value;
     } else if (!row[i].empty()) {
-      throw Error("column " + head[i] + ": '" + row[i] + "' is not a number");
+      throw Error("column " + head[i] + ": '" + row[i] + "' is not a finite number");
     }
   }
   return json;
@@ -126,7 +128,7 @@ std::vector<JobResult> read_csv(const fs::path& path) {
 std::string results_json(const std::vector<JobResult>& jobs) {
   // A line a job: small, and a change of one shows as one.
   std::string text = "[";
-  for (const JobResult& job : jobs) text.append(text.size() > 1 ? ",\n" : "\n").append(json_of(job).dump());
+  for (const JobResult& job : jobs) text.append(text.size() > 1 ? ",\n" : "\n").append(json_text(json_of(job)));
   return text + "\n]\n";
 }
 
