@@ -23,5 +23,13 @@ TEST(JsonText, DeepOnesAreRefusedBeforeTheStackIsFull) {
   EXPECT_EQ(parse_json<Json>("[\"" + open + "\\\"" + open + "\"]", "a.json").size(), 1u);
 }
 
+TEST(JsonText, WholeNumbersAreWholeAndHaveRoom) {
+  EXPECT_EQ(json_value<int>(Json(-7)), -7);
+  EXPECT_EQ(json_value<int>(Json(7.0)), 7);
+  EXPECT_TRUE(json_value<bool>(Json(true)));
+  for (const Json& bad : {Json(1e300), Json(0.5), Json(std::int64_t{1} << 40), Json("7"), Json()})
+    EXPECT_THROW(json_value<int>(bad), Json::exception) << bad;
+}
+
 }  // namespace
 }  // namespace ldso

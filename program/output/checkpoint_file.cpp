@@ -10,9 +10,9 @@ namespace ldso {
 std::string describe_checkpoint(const std::string& text, const std::string& name) {
   try {
     const auto json = parse_json<nlohmann::json>(text, name);
-    return std::to_string(json.at("counts").at("frames").get<int>()) + " of " +
-           std::to_string(json.at("sequence").at("frames").get<int>()) + " frames, " +
-           std::to_string(json.at("counts").at("frames_with_pose").get<int>()) + " with a pose";
+    return std::to_string(json_value<int>(json.at("counts").at("frames"))) + " of " +
+           std::to_string(json_value<int>(json.at("sequence").at("frames"))) + " frames, " +
+           std::to_string(json_value<int>(json.at("counts").at("frames_with_pose"))) + " with a pose";
   } catch (const nlohmann::json::exception& error) {
     throw Error(name, std::string("it is damaged (") + error.what() + ")", "run the sequence again");
   }

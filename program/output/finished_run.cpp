@@ -14,14 +14,19 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 PinholeIntrinsics camera_of(const Json& json) {
-  return {json.at("width"), json.at("height"), json.at("fx"), json.at("fy"), json.at("cx"), json.at("cy")};
+  return {json_value<int>(json.at("width")),
+          json_value<int>(json.at("height")),
+          json.at("fx"),
+          json.at("fy"),
+          json.at("cx"),
+          json.at("cy")};
 }
 
 DatasetOptions options_of(const Json& sequence) {
   DatasetOptions options;
-  options.start = sequence.at("start");
-  if (!sequence.at("end").is_null()) options.end = sequence.at("end").get<int>();
-  options.stride = sequence.at("stride");
+  options.start = json_value<int>(sequence.at("start"));
+  if (!sequence.at("end").is_null()) options.end = json_value<int>(sequence.at("end"));
+  options.stride = json_value<int>(sequence.at("stride"));
   options.reverse = sequence.at("reverse");
   // Runs of older versions do not say these.
   if (sequence.contains("calib") && !sequence["calib"].is_null())

@@ -1,6 +1,7 @@
 #include "experiment/jobs/job_file.h"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "io/text/json_text.h"
 #include "io/text/output_folder.h"
@@ -27,7 +28,9 @@ Json json_of(const ExperimentJob& job) {
 
 ExperimentJob job_of(const Json& json) {
   ExperimentJob job;
-  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
+  visit_identity(job, [&](const char* name, auto& value) {
+    value = json_value<std::remove_cvref_t<decltype(value)>>(json.at(name));
+  });
   job.path = json.at("path").get<std::string>();
   job.metric = parse_job_metric(json.at("metric").get<std::string>());
   if (const Json& truth = json.at("ground_truth"); !truth.is_null()) job.ground_truth = truth.get<std::string>();

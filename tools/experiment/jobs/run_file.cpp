@@ -6,6 +6,7 @@
 
 #include "io/text/json_text.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -46,7 +47,7 @@ std::map<std::string, RunStage> stages_of(const Json& run) {
   std::map<std::string, RunStage> stages;
   const Json all = at(run, "/timing/stages");
   for (const auto& [name, stage] : all.items()) {
-    stages[name] = {stage.at("calls").get<std::int64_t>(), stage.at("total_ms").get<double>()};
+    stages[name] = {json_value<std::int64_t>(stage.at("calls")), stage.at("total_ms").get<double>()};
   }
   return stages;
 }
@@ -80,7 +81,7 @@ std::optional<LostEnd> lost_end(const Json& run, double frames) {
   return LostEnd{last.at("first").get<double>(), last.value("reason", "")};
 }
 
-std::string whole(double value) { return std::to_string(static_cast<long long>(value)); }
+std::string whole(double value) { return format_text("%.0f", value); }
 
 /// Why a run that came to its end counts as failed; empty if it does not.
 std::string reason_of_loss(const Json& run) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "experiment/jobs/job_file.h"
@@ -59,7 +60,9 @@ Json json_of(const JobResult& result) {
 JobResult result_of(const Json& json) {
   JobResult result;
   ExperimentJob& job = result.job;
-  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
+  visit_identity(job, [&](const char* name, auto& value) {
+    value = json_value<std::remove_cvref_t<decltype(value)>>(json.at(name));
+  });
   job.metric = parse_job_metric(json.at("metric").get<std::string>());
   result.state = parse_run_state(json.at("state").get<std::string>());
   json.at("reason").get_to(result.reason);
@@ -68,7 +71,7 @@ JobResult result_of(const Json& json) {
   });
   if (!json.contains("stages")) return result;
   for (const auto& [name, stage] : json.at("stages").items()) {
-    result.stages[name] = {stage.at("calls").get<std::int64_t>(), stage.at("total_ms").get<double>()};
+    result.stages[name] = {json_value<std::int64_t>(stage.at("calls")), stage.at("total_ms").get<double>()};
   }
   return result;
 }
