@@ -24,7 +24,7 @@ while (($# > 0)); do
     --seconds) seconds=${2:?--seconds takes a number}; shift 2 ;;
     --runs) runs=${2:?--runs takes a number}; shift 2 ;;
     --corpus) corpus=${2:?--corpus takes a folder}; shift 2 ;;
-    --quick) quick=1 seconds=4; shift ;;
+    --quick) quick=1 seconds=3; shift ;;
     --no-build) must_build=0; shift ;;
     -h | --help) usage 0 ;;
     -*) usage 1 ;;

@@ -66,11 +66,10 @@ TEST(ImageZip, ClaimsOfItsDirectoryAreNotBelieved) {
   const std::size_t entry = bytes.rfind("PK\x01\x02");
   bytes.replace(entry + 24, 4, "\xf0\xff\xff\xff");
   write_text(folder / "images.zip", bytes);
-  const std::string error = error_of([&] {
-    const auto source = open_image_zip(folder / "images.zip");
-    source->read(source->names().at(0));
-  });
-  EXPECT_NE(error.find("images.zip"), std::string::npos) << error;
+  const auto source = open_image_zip(folder / "images.zip");
+  const std::vector<std::uint8_t> image = source->read(source->names().at(0));
+  EXPECT_LT(image.capacity(), 1u << 20);
+  EXPECT_EQ(decode_grey_image(image, "a")(3, 2), test_frame(0)(3, 2));
 }
 
 }  // namespace
