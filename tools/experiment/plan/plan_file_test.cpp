@@ -145,8 +145,8 @@ struct BadPlan {
 TEST(PlanFile, MistakesAreNamedWithTheirLine) {
   const std::vector<BadPlan> bad{
       {"repetitons: 3\n", "plan.yaml:2: unknown key 'repetitons'", "did you mean 'repetitions'?"},
-      {"\n\nrepetitions: many\n", "plan.yaml:4: 'repetitions' is 'many'", "a whole number from 1 on"},
-      {"repetitions: 0\n", "plan.yaml:2: 'repetitions' is '0'", "from 1 on"},
+      {"\n\nrepetitions: many\n", "plan.yaml:4: 'repetitions' is 'many'", "a whole number from 1 to 100000"},
+      {"repetitions: 0\n", "plan.yaml:2: 'repetitions' is '0'", "from 1 to 100000"},
       {"repetitions: [1]\n", "plan.yaml:2: 'repetitions' has no single value", "`repetitions: value`"},
       {"strategies: [corners,\n  gradients]\n", "plan.yaml:3: 'strategies' is 'gradients'", "did you mean gradient?"},
       {"strategies: []\n", "plan.yaml:2: 'strategies' is empty", "at least one"},
