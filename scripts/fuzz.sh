@@ -6,7 +6,6 @@
 #     --runs N      at most so many executions of each (default: as many as the time allows)
 #     --corpus DIR  where inputs that reach new code are kept, a folder each target (default: out/fuzz/corpus); a later
 #                   run begins with them
-#     --quick       a few seconds for each target but those that take long to build: for .ci/run
 #     --no-build    the targets are there already
 #     TARGET        as the files in fuzz/ are called; all if none is named
 # An input that a target does not survive is saved in out/fuzz/findings/TARGET, the output in out/fuzz/TARGET.log. The
@@ -17,14 +16,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/build_tools.sh
 
 usage() { sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"; exit "$1"; }
-seconds=60 runs=-1 corpus=out/fuzz/corpus must_build=1 quick=0
+seconds=60 runs=-1 corpus=out/fuzz/corpus must_build=1
 targets=()
 while (($# > 0)); do
   case $1 in
     --seconds) seconds=${2:?--seconds takes a number}; shift 2 ;;
     --runs) runs=${2:?--runs takes a number}; shift 2 ;;
     --corpus) corpus=${2:?--corpus takes a folder}; shift 2 ;;
-    --quick) quick=1 seconds=3; shift ;;
     --no-build) must_build=0; shift ;;
     -h | --help) usage 0 ;;
     -*) usage 1 ;;
@@ -35,7 +33,6 @@ done
 if ((must_build)); then configure fuzz; fi
 # Those that can be built here: without Node there is no server.
 if ((${#targets[@]} == 0)); then mapfile -t targets <build/fuzz/fuzz/targets.txt; fi
-if ((quick)); then mapfile -t targets < <(printf '%s\n' "${targets[@]}" | grep -vx finished_run); fi
 if ((must_build)); then build fuzz --target "${targets[@]/#/fuzz_}"; fi
 
 # Nothing that is tried needs more memory than this (MB): what takes more believes what a file says of itself.
