@@ -252,7 +252,7 @@ def check_measures(files):
 
 def check_build_files():
     files = [*ROOT.glob("CMake*"), *ROOT.glob("cmake/*"), *(ROOT / f"{part}/CMakeLists.txt" for part in PARTS),
-             *ROOT.glob("bench/CMakeLists.txt"), *ROOT.glob("tests/**/CMakeLists.txt")]
+             *ROOT.glob("bench/CMakeLists.txt"), *ROOT.glob("fuzz/CMakeLists.txt"), *ROOT.glob("tests/**/CMakeLists.txt")]
     for path in files:
         for number, line in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
             flag = re.search(r"-march=|-mavx|-mfma|-ffast-math|-Ofast", line)

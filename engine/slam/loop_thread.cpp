@@ -6,6 +6,7 @@
 #include "place/default_vocabulary.h"
 #include "place/vocabulary_file.h"
 #include "util/log.h"
+#include "util/out_of_memory.h"
 
 namespace ldso {
 namespace {
@@ -123,7 +124,7 @@ void LoopThread::work(const std::stop_token& stop) {
     process(stop);
   } catch (const std::exception& error) {
     failed = true;
-    log_to(log_, LogLevel::kWarning, std::string("loop closing ends: ") + error.what());
+    log_to(log_, LogLevel::kWarning, "loop closing ends: " + problem_of(error, "closing loops"));
     queue_.close();
   }
   const std::lock_guard lock(mutex_);

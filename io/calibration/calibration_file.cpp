@@ -7,7 +7,10 @@
 #include <system_error>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "io/images/image_file.h"
+#include "io/images/image_header.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 
@@ -104,6 +107,9 @@ void parse_size(const TextFile& file, const TextLine& line, int& width, int& hei
   const auto is_side = [](double v) { return v >= 1 && v <= kLargestSide && v == std::floor(v); };
   if (line.fields.size() != 2 || !is_side(w) || !is_side(h)) {
     file.fail(line, "'" + line.text + "' is no image size", "width and height in pixels are expected, `640 480`");
+  }
+  if (w * h > static_cast<double>(kMostImagePixels)) {
+    file.fail(line, "'" + line.text + "' are more pixels than can be handled", "at most 8192x8192 are possible");
   }
   width = static_cast<int>(w);
   height = static_cast<int>(h);
@@ -288,6 +294,9 @@ std::map<std::string, Eigen::Matrix<double, 3, 4>> read_kitti_calibration(const 
     Eigen::Matrix<double, 3, 4>& P = matrices[name];
     for (int i = 0; i < 12; ++i) P(i / 4, i % 4) = file.finite_number(line, static_cast<std::size_t>(i + 1));
     if (!(P(0, 0) > 0 && P(1, 1) > 0)) file.fail(line, "a focal length is not positive", "");
+    const Eigen::Vector3d shift = P.leftCols<3>().inverse() * P.col(3);
+    if (!shift.allFinite())
+      file.fail(line, "the first three columns cannot be inverted", "a camera matrix is expected");
   }
   if (matrices.empty()) throw Error(path.string(), "has no projection matrix", "expected a line `P0:` and 12 numbers");
   return matrices;

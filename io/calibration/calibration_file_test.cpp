@@ -209,5 +209,17 @@ TEST_F(CameraFile, KittiMatricesAreReadByName) {
   EXPECT_NE(error_of([&] { read_kitti_calibration(folder_ / "calib.txt"); }).find("no projection"), std::string::npos);
 }
 
+TEST_F(CameraFile, MorePixelsThanCanBeHandledAreErrors) {
+  EXPECT_NE(error("Pinhole 500 500 300 200 0\n32768 32768\nnone\n32768 32768\n").find("camera.txt:2: "),
+            std::string::npos);
+  EXPECT_NE(error("Pinhole 500 500 300 200 0\n640 480\ncrop\n32768 32768\n").find("camera.txt:4: "), std::string::npos);
+}
+
+TEST_F(CameraFile, AKittiCameraCanBeInverted) {
+  write_text(folder_ / "calib.txt", "P0: 710 0 601 5 0 707 183 0 0 0 0 0\n");
+  EXPECT_NE(error_of([&] { read_kitti_calibration(folder_ / "calib.txt"); }).find("calib.txt:1: the first three"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace ldso

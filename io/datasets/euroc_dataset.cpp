@@ -1,6 +1,5 @@
 #include "io/datasets/euroc_dataset.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string>
@@ -8,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/datasets/euroc_camera.h"
 #include "io/datasets/sequence_dataset.h"
 #include "io/text/text_file.h"
-#include "io/text/yaml_node.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "util/whole_file.h"
@@ -20,50 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct EurocCamera {
-  Calibration calibration;
-  SE3d T_body_camera;
-};
-
 fs::path mav_folder(const fs::path& folder) {
   std::error_code error;
   return fs::is_directory(folder / "mav0", error) ? folder / "mav0" : folder;
-}
-
-CameraModelKind distortion_model(const YamlNode& yaml) {
-  if (!yaml.contains("distortion_model")) return CameraModelKind::kPinhole;
-  const YamlNode model = yaml.at("distortion_model");
-  const std::string name = model.scalar();
-  if (name == "radial-tangential" || name == "radtan") return CameraModelKind::kRadTan;
-  if (name == "equidistant") return CameraModelKind::kKannalaBrandt;
-  if (name == "none") return CameraModelKind::kPinhole;
-  model.fail("is '" + name + "'",
-             "radial-tangential, equidistant and none are known; or give a camera.txt with --calib");
-}
-
-EurocCamera read_camera(const fs::path& path) {
-  const YamlNode yaml = YamlNode::read(path, path.filename().string());
-  if (!yaml.is_map()) yaml.fail("is not a sensor description", "see sensor.yaml of the EuRoC data set");
-  EurocCamera result;
-  CameraCalibration& camera = result.calibration.camera;
-  camera.model = distortion_model(yaml);
-  const std::vector<double> size = yaml.at("resolution").numbers(2);
-  camera.width = static_cast<int>(size[0]);
-  camera.height = static_cast<int>(size[1]);
-  const std::vector<double> intrinsics = yaml.at("intrinsics").numbers(4);
-  camera.fx = intrinsics[0];
-  camera.fy = intrinsics[1];
-  camera.cx = intrinsics[2];
-  camera.cy = intrinsics[3];
-  if (camera.model != CameraModelKind::kPinhole) {
-    const std::vector<double> distortion = yaml.at("distortion_coefficients").numbers(4);
-    std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
-    result.calibration.rectification.mode = RectificationMode::kCrop;
-  }
-  const std::vector<double> T_BS = yaml.at("T_BS").at("data").numbers(16);
-  result.T_body_camera = SE3d::from_matrix(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(T_BS.data()));
-  result.calibration.description = path.string() + ": " + describe(camera, result.calibration.rectification);
-  return result;
 }
 
 std::vector<FrameEntry> read_frames(const fs::path& path) {
@@ -104,7 +62,7 @@ std::unique_ptr<Dataset> open_euroc(const fs::path& folder, const DatasetOptions
   EurocCamera camera;
   const fs::path sensor = mav / "cam0" / "sensor.yaml";
   const bool has_sensor = fs::exists(sensor, error);
-  if (has_sensor || !options.calibration_file) camera = read_camera(sensor);
+  if (has_sensor || !options.calibration_file) camera = read_euroc_camera(sensor);
   sequence.calibration = std::move(camera.calibration);
   if (options.calibration_file) sequence.calibration = read_camera_calibration(*options.calibration_file);
   sequence.frames = read_frames(mav / "cam0" / "data.csv");

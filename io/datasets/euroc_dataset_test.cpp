@@ -53,6 +53,12 @@ TEST(EurocDataset, BadSensorFilesAreErrors) {
   EXPECT_NE(message_for("resolution: [32, 24]\nintrinsics: [1, 2, 3, 4]\n").find("'T_BS'"), std::string::npos);
   const std::string numbers = "resolution: [32, 24]\nintrinsics: [1, 2, 3, 4]\n";
   EXPECT_NE(message_for(numbers + "T_BS: {rows: 4}\n").find("sensor.yaml:3: 'T_BS' has no 'data'"), std::string::npos);
+  EXPECT_NE(message_for(numbers + "T_BS: {data: [1,0,0,0, 0,2,0,0, 0,0,1,0, 0,0,0,1]}\n").find("no rigid motion"),
+            std::string::npos);
+  for (const char* size : {"1e300, 1e300", "100000, 100000", "0, 24", "32.5, 24", "-32, 24"}) {
+    EXPECT_NE(message_for("resolution: [" + std::string(size) + "]\n").find("is no image size"), std::string::npos);
+  }
+  EXPECT_NE(message_for("resolution: [32, 24]\nintrinsics: [0, 1, 2, 3]\n").find("focal length"), std::string::npos);
   EXPECT_NE(message_for("resolution: [32, nan]\n").find("sensor.yaml:1: 'resolution' is 'nan'"), std::string::npos);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
@@ -23,6 +24,9 @@ namespace fs = std::filesystem;
 /// Those that read files; cv::CAP_ANY would look for cameras on the bus as well.
 constexpr std::array<int, 3> kFileBackends{cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG, cv::CAP_GSTREAMER};
 
+/// That even a frame like the one before takes in a file, with its place in the index.
+constexpr std::uintmax_t kLeastBytesOfFrame = 8;
+
 /// Of a file that does not say.
 constexpr double kDefaultFps = 30.0;
 
@@ -36,10 +40,13 @@ class VideoReader {
 
   double fps() const { return capture_.get(cv::CAP_PROP_FPS); }
 
-  /// What the container says, or counted where it says nothing.
+  /// What the container says, or counted where it says nothing or more than its file has room for.
   int count_frames() {
     const double announced = capture_.get(cv::CAP_PROP_FRAME_COUNT);
-    if (std::isfinite(announced) && announced >= 1 && announced < 1e9) return static_cast<int>(announced);
+    std::error_code error;
+    const double most = static_cast<double>(fs::file_size(path_, error) / kLeastBytesOfFrame);
+    if (std::isfinite(announced) && announced >= 1 && announced < std::min(most, 1e9))
+      return static_cast<int>(announced);
     int count = 0;
     while (capture_.grab()) ++count;
     reopen();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/datasets/test_sequences.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -36,6 +37,16 @@ TEST(VideoDataset, DamagedFilesAreErrors) {
   write_text(folder / "camera.txt", kTestCamera);
   write_text(folder / "a.mp4", "this is no video");
   EXPECT_NE(error_of([&] { open_video(folder / "a.mp4", {}); }).find("a.mp4"), std::string::npos);
+}
+
+TEST(VideoDataset, FramesThatTheFileHasNoRoomForAreNotBelieved) {
+  const TemporaryFolder folder;
+  const fs::path file = make_video(folder.path(), 5);
+  std::string bytes = read_file(file);
+  for (const std::size_t count : {bytes.find("avih") + 8 + 16, bytes.find("strh") + 8 + 32})
+    bytes.replace(count, 4, "\xff\xff\xff\x1f");
+  write_text(file, bytes);
+  EXPECT_EQ(open_video(file, {})->size(), 5);
 }
 
 }  // namespace

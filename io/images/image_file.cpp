@@ -1,15 +1,16 @@
 #include "io/images/image_file.h"
 
 #include <algorithm>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <system_error>
 
+#include "io/images/image_header.h"
 #include "io/images/image_truncation.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/out_of_memory.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -18,15 +19,22 @@ namespace {
 constexpr float k16BitPerGreyLevel = 257.0F;  // 65535 / 255
 constexpr float kLeastVignette = 1e-3F;
 
+std::string describe_image(const ImageHeader& header, const std::string& name) {
+  return name + ", " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels";
+}
+
 cv::Mat decode(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (bytes.empty()) throw Error(name, "the image file is empty", "replace or remove it");
   if (is_truncated_image(bytes)) throw Error(name, "the image file is truncated", "copy it again or remove it");
+  if (bytes.size() > kMostImageBytes) throw Error(name, "the image file is larger than 512 MB", "make it smaller");
+  const ImageHeader header = read_image_header(bytes, name);
   cv::Mat decoded;
   try {
     // The constructor wants a mutable pointer; imdecode only reads.
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data()));
     decoded = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
   } catch (const cv::Exception& exception) {
+    if (exception.code == cv::Error::StsNoMem) throw OutOfMemory("decoding " + describe_image(header, name));
     throw Error(name, "the image cannot be decoded (" + exception.err + ")", "replace or remove it");
   }
   if (decoded.empty()) {

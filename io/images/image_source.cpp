@@ -9,12 +9,16 @@
 #include <utility>
 
 #include "io/images/image_file.h"
+#include "io/images/image_header.h"
 #include "ldso/error.h"
 
 namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// That are unpacked at once.
+constexpr std::size_t kPartBytes = 1 << 16;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -49,7 +53,12 @@ class ImageFolder final : public ImageSource {
     return result;
   }
 
-  std::vector<std::uint8_t> read(const std::string& name) const override { return read_bytes(folder_ / name); }
+  std::vector<std::uint8_t> read(const std::string& name) const override {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(folder_ / name, error);
+    if (!error && size > kMostImageBytes) throw Error(describe(name), "is larger than 512 MB", "make it smaller");
+    return read_bytes(folder_ / name);
+  }
   std::string describe(const std::string& name) const override { return (folder_ / name).string(); }
 
  private:
@@ -82,16 +91,16 @@ class ImageZip final : public ImageSource {
   }
 
   std::vector<std::uint8_t> read(const std::string& name) const override {
-    zip_stat_t stat;
-    if (zip_stat(archive_.get(), name.c_str(), 0, &stat) != 0) fail(name);
     const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(zip_fopen(archive_.get(), name.c_str(), 0),
                                                                   &zip_fclose);
-    if (!file) fail(name);
-    std::vector<std::uint8_t> bytes(stat.size);
-    const zip_int64_t count = zip_fread(file.get(), bytes.data(), bytes.size());
-    if (count < 0 || static_cast<std::size_t>(count) != bytes.size()) {
-      throw Error(describe(name), "cannot be unpacked (" + std::string(zip_file_strerror(file.get())) + ")",
-                  "copy the archive again");
+    if (!file) fail(name, zip_strerror(archive_.get()));
+    // The archive may claim any size: memory is taken for what really comes out of it.
+    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> part(kPartBytes);
+    while (const zip_int64_t count = zip_fread(file.get(), part.data(), part.size())) {
+      if (count < 0) fail(name, zip_file_strerror(file.get()));
+      bytes.insert(bytes.end(), part.begin(), part.begin() + count);
+      if (bytes.size() > kMostImageBytes) fail(name, "it is larger than 512 MB");
     }
     return bytes;
   }
@@ -99,9 +108,8 @@ class ImageZip final : public ImageSource {
   std::string describe(const std::string& name) const override { return path_.string() + ":" + name; }
 
  private:
-  [[noreturn]] void fail(const std::string& name) const {
-    throw Error(describe(name), "cannot be unpacked (" + std::string(zip_strerror(archive_.get())) + ")",
-                "copy the archive again");
+  [[noreturn]] void fail(const std::string& name, const std::string& reason) const {
+    throw Error(describe(name), "cannot be unpacked (" + reason + ")", "copy the archive again");
   }
 
   struct Discard {

@@ -4,6 +4,7 @@
 
 #include "io/datasets/test_sequences.h"
 #include "io/images/image_file.h"
+#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -55,6 +56,20 @@ TEST(ImageZip, DamagedArchiveIsAnError) {
   const std::filesystem::path file = folder / "b" / "images.zip";
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   EXPECT_NE(error_of([&] { open_image_zip(file); }).find("zip archive"), std::string::npos);
+}
+
+TEST(ImageZip, ClaimsOfItsDirectoryAreNotBelieved) {
+  const TemporaryFolder folder;
+  make_tum_mono_zip(folder.path(), 1);
+  std::string bytes = read_file(folder / "images.zip");
+  // The size of the unpacked image, little-endian, in the directory at the archive's end: now 4 GB.
+  const std::size_t entry = bytes.rfind("PK\x01\x02");
+  bytes.replace(entry + 24, 4, "\xf0\xff\xff\xff");
+  write_text(folder / "images.zip", bytes);
+  const auto source = open_image_zip(folder / "images.zip");
+  const std::vector<std::uint8_t> image = source->read(source->names().at(0));
+  EXPECT_LT(image.capacity(), 1u << 20);
+  EXPECT_EQ(decode_grey_image(image, "a")(3, 2), test_frame(0)(3, 2));
 }
 
 }  // namespace

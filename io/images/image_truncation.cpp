@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "io/images/image_header.h"
+
 namespace ldso {
 namespace {
 
@@ -11,7 +13,6 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::size_t kBmpHeader = 54;
-constexpr std::size_t kLargestHeaderNumber = 1'000'000;
 constexpr std::uint8_t kStartOfScan = 0xda;
 constexpr std::uint8_t kEndOfImage = 0xd9;
 
@@ -73,21 +74,6 @@ bool png_is_complete(Bytes bytes) {
 
 bool starts_as_binary_pnm(Bytes bytes) {
   return bytes.size() >= 2 && bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6');
-}
-
-/// The next number of a PNM header, skipping blanks and comments before it; 0 if the bytes end.
-std::size_t pnm_number(Bytes bytes, std::size_t& position) {
-  const auto is_digit = [&] { return bytes[position] >= '0' && bytes[position] <= '9'; };
-  for (; position < bytes.size() && !is_digit(); ++position) {
-    if (bytes[position] != '#') continue;
-    while (position < bytes.size() && bytes[position] != '\n') ++position;
-    if (position == bytes.size()) return 0;
-  }
-  std::size_t number = 0;
-  for (; position < bytes.size() && is_digit() && number < kLargestHeaderNumber; ++position) {
-    number = 10 * number + bytes[position] - '0';
-  }
-  return position < bytes.size() ? number : 0;
 }
 
 bool pnm_is_complete(Bytes bytes) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <new>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "util/bounded_queue.h"
+#include "util/out_of_memory.h"
 
 namespace ldso {
 
@@ -23,6 +25,8 @@ class PrefetchingReader {
     int index = 0;
     std::optional<T> value;
     std::string error;  ///< Why there is no value.
+    /// Memory that could not be had: no fault of this frame.
+    std::optional<OutOfMemory> out_of_memory;
   };
 
   /// Calls produce(0), ..., produce(count - 1) on one thread of its own, at most `ahead` items before they are wanted.
@@ -43,14 +47,22 @@ class PrefetchingReader {
   PrefetchingReader(const PrefetchingReader&) = delete;
   PrefetchingReader& operator=(const PrefetchingReader&) = delete;
 
-  /// The next item, waiting for it if need be; nothing after the last one.
-  std::optional<Item> next() { return queue_.pop(); }
+  /// The next item, waiting for it if need be; nothing after the last one. Throws OutOfMemory if there was none for it.
+  std::optional<Item> next() {
+    std::optional<Item> item = queue_.pop();
+    if (item && item->out_of_memory) throw OutOfMemory(*item->out_of_memory);
+    return item;
+  }
 
  private:
   static Item make_item(int index, const std::function<T(int)>& produce) {
-    Item item{index, std::nullopt, ""};
+    Item item{index, std::nullopt, "", std::nullopt};
     try {
       item.value.emplace(produce(index));
+    } catch (const OutOfMemory& known) {
+      item.out_of_memory = known;
+    } catch (const std::bad_alloc&) {
+      item.out_of_memory.emplace("reading frame " + std::to_string(index));
     } catch (const std::exception& error) {
       item.error = error.what();
     }

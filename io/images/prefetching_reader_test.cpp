@@ -46,6 +46,17 @@ TEST(PrefetchingReader, AFailedItemCarriesItsReasonAndTheRestFollows) {
   EXPECT_FALSE(reader.next().has_value());
 }
 
+TEST(PrefetchingReader, WantOfMemoryIsNoBadFrame) {
+  PrefetchingReader<int> reader(3, [](int i) { return i == 1 ? throw std::bad_alloc() : i; });
+  EXPECT_EQ(reader.next()->value, 0);
+  try {
+    reader.next();
+    FAIL() << "it went on";
+  } catch (const OutOfMemory& error) {
+    EXPECT_NE(std::string(error.what()).find("reading frame 1"), std::string::npos) << error.what();
+  }
+}
+
 TEST(PrefetchingReader, StopsWhenItIsDestroyed) {
   std::atomic<int> produced{0};
   {

@@ -1,6 +1,8 @@
 #include "ldso/io/ply_file.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -54,6 +56,10 @@ PlyPoint point_at(std::string_view bytes, std::size_t offset) {
           static_cast<std::uint8_t>(bytes[offset + 15]), float_at(bytes, offset + 16)};
 }
 
+bool is_finite(const PlyPoint& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.idepth_stddev);
+}
+
 }  // namespace
 
 void write_ply(const std::filesystem::path& path, const std::vector<PlyPoint>& points) {
@@ -80,6 +86,8 @@ std::vector<PlyPoint> read_ply(const std::filesystem::path& path) {
   std::vector<PlyPoint> points;
   for (std::size_t offset = first; offset < bytes.size(); offset += kBytesPerPoint)
     points.push_back(point_at(bytes, offset));
+  if (!std::all_of(points.begin(), points.end(), is_finite))
+    throw Error(path.string(), "has a point that is not finite", "the file is damaged; write it again");
   return points;
 }
 

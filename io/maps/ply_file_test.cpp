@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "io/datasets/test_sequences.h"
 #include "util/whole_file.h"
 
@@ -51,6 +53,27 @@ TEST(PlyFile, DamagedFilesAreErrors) {
   write_text(folder / "other.ply", "ply\nformat ascii 1.0\n");
   EXPECT_NE(error_of([&] { read_ply(folder / "other.ply"); }).find("other.ply"), std::string::npos);
   EXPECT_NE(error_of([&] { write_ply(folder / "no/map.ply", {}); }).find("cannot be written"), std::string::npos);
+}
+
+TEST(PlyFile, ClaimsOfItsHeaderAreNotBelieved) {
+  const TemporaryFolder folder;
+  const auto error_for = [&](const std::string& count) {
+    write_ply(folder / "map.ply", {{}});
+    std::string bytes = read_file(folder / "map.ply");
+    bytes.replace(bytes.find("vertex 1") + 7, 1, count);
+    write_text(folder / "map.ply", bytes);
+    return error_of([&] { read_ply(folder / "map.ply"); });
+  };
+  for (const char* count : {"1000000000000", "1e300", "-1", "nan", "0.5"})
+    EXPECT_NE(error_for(count).find("announced number"), std::string::npos) << count;
+}
+
+TEST(PlyFile, PointsThatAreNotFiniteAreErrors) {
+  const TemporaryFolder folder;
+  PlyPoint point;
+  point.idepth_stddev = std::numeric_limits<float>::quiet_NaN();
+  write_ply(folder / "map.ply", {{}, point});
+  EXPECT_NE(error_of([&] { read_ply(folder / "map.ply"); }).find("not finite"), std::string::npos);
 }
 
 }  // namespace

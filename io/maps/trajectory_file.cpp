@@ -20,6 +20,8 @@ namespace {
 constexpr double kMostRotationError = 0.01;
 
 constexpr double kNanosecondsPerSecond = 1e9;
+/// Times as nanoseconds in 64 bits.
+constexpr double kMostSeconds = 9.2e9;
 
 SO3d checked_rotation(const TextFile& file, const TextLine& line, const Eigen::Quaterniond& q) {
   // Written with few digits a quaternion's norm is off by a per mille; anything else is another column.
@@ -180,7 +182,9 @@ void write_csv_trajectory(const std::filesystem::path& path, const Trajectory& t
 void write_euroc_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
   const char* header =
       "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
-  write_poses(path, header, trajectory, [](std::string& text, const StampedPose& pose) {
+  write_poses(path, header, trajectory, [&](std::string& text, const StampedPose& pose) {
+    if (!(std::abs(pose.timestamp) < kMostSeconds))
+      throw Error(path.string(), "the time " + std::to_string(pose.timestamp) + " s has no room in nanoseconds", "");
     const Eigen::Vector3d& t = pose.T_world_camera.translation();
     const Eigen::Quaterniond q = pose.T_world_camera.rotation().quaternion();
     text += std::to_string(std::llround(pose.timestamp * kNanosecondsPerSecond));

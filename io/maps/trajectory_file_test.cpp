@@ -138,5 +138,14 @@ TEST(TrajectoryFile, NumbersThatAreNotFiniteAreNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder / "t.txt"));
 }
 
+TEST(TrajectoryFile, TimesWithoutRoomInNanosecondsAreNotWritten) {
+  const TemporaryFolder folder;
+  const Trajectory trajectory{{1e30, SE3d()}};
+  EXPECT_NE(error_of([&] { write_euroc_trajectory(folder / "t.csv", trajectory); }).find("no room in nanoseconds"),
+            std::string::npos);
+  write_tum_trajectory(folder / "t.txt", trajectory);
+  EXPECT_EQ(read_tum_trajectory(folder / "t.txt")[0].timestamp, 1e30);
+}
+
 }  // namespace
 }  // namespace ldso

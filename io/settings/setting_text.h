@@ -9,6 +9,7 @@
 #include <string>
 #include <type_traits>
 
+#include "io/text/json_text.h"
 #include "ldso/setting.h"
 
 namespace ldso {
@@ -24,7 +25,7 @@ std::string setting_text(const Value& value) {
   } else if constexpr (SettingChoice<Value>) {
     return std::string(word_of(value));
   } else if constexpr (std::same_as<Value, std::string>) {
-    return nlohmann::json(value).dump();  // A JSON string is a YAML string.
+    return json_text(nlohmann::json(value));  // A JSON string is a YAML string.
   } else {
     return std::to_string(value);
   }

@@ -143,5 +143,13 @@ TEST_F(SettingsFile, JsonHasTheGroups) {
   EXPECT_EQ(json["loops"]["sharpening"]["similarity"]["max_iterations"], 5);
 }
 
+TEST_F(SettingsFile, NamesOfFilesMayBeAnyBytes) {
+  Settings s;
+  set_setting(s, "loops.vocabulary", "b\xe4r.ldsovoc");
+  EXPECT_EQ(s.loops.vocabulary, "b\xe4r.ldsovoc");
+  write_settings(folder_ / "written.yaml", s);  // Does not fail, though YAML cannot hold it.
+  EXPECT_NE(read_file(folder_ / "written.yaml").find("b\xef\xbf\xbdr.ldsovoc"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ldso

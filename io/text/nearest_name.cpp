@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 namespace ldso {
 namespace {
+
+/// No name is longer. The time goes with the product of both lengths, and a damaged file may have anything as a name.
+constexpr std::size_t kMostCharacters = 100;
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -24,11 +28,20 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
-  const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
-  return nearest == names.end() ? std::string() : *nearest;
+std::string nearest_name(const std::string& text, const std::vector<std::string>& names) {
+  const std::string name = text.substr(0, kMostCharacters);
+  std::string nearest;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : names) {
+    // Each character more or less is an edit.
+    const std::size_t shorter = std::min(candidate.size(), name.size());
+    if (candidate.size() + name.size() - 2 * shorter >= least) continue;
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
 }
 
 }  // namespace ldso

@@ -15,5 +15,10 @@ TEST(NearestName, FindsTheFewestEdits) {
 
 TEST(NearestName, OfNoNamesIsEmpty) { EXPECT_EQ(nearest_name("a", {}), ""); }
 
+TEST(NearestName, TakesNoTimeForEndlessWords) {
+  // A hundred million characters: compared as a whole they would take minutes.
+  EXPECT_EQ(nearest_name(std::string(100'000'000, 'a'), {"aaaa", "b"}), "aaaa");
+}
+
 }  // namespace
 }  // namespace ldso

@@ -73,7 +73,12 @@ fs::path OutputFolder::file(const std::string& name) {
   if (!owns(name)) {
     refuse_foreign(name);
     own_.insert(name);
-    write_list();
+    try {
+      write_list();
+    } catch (const Error&) {
+      own_.erase(name);  // A file that no list names would be a stranger's to the next run.
+      throw;
+    }
     has_list_ = true;
   }
   return folder_ / name;

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <system_error>
 
 #include "io/text/nearest_name.h"
 #include "io/text/text_file.h"
+#include "io/text/utf8.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
 
@@ -24,17 +26,48 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Levels and values of a tree. An alias (*name) repeats what it names, perhaps around itself or a thousand times over:
+/// a short text may be an endless tree.
+constexpr int kMostLevels = 64;
+constexpr int kMostValues = 200'000;
+
+/// Throws Error if the tree is larger.
+void check_tree(const YAML::Node& node, const std::string& origin, int level, int& values) {
+  const auto fail = [&](const std::string& problem) {
+    throw Error(origin + ":" + std::to_string(std::max(0, node.Mark().line) + 1), problem,
+                "write it without aliases (*name)");
+  };
+  if (level > kMostLevels) fail("is nested more than 64 levels deep, or contains itself");
+  if (++values > kMostValues) fail("has more than 200000 values");
+  if (node.IsSequence()) {
+    for (const YAML::Node& element : node) check_tree(element, origin, level + 1, values);
+  } else if (node.IsMap()) {
+    for (const auto& entry : node) {
+      check_tree(entry.first, origin, level + 1, values);
+      check_tree(entry.second, origin, level + 1, values);
+    }
+  }
+}
+
+YAML::Node load(const std::string& text, const std::string& origin) {
+  if (!is_utf8(text)) throw Error(origin, "is no text in UTF-8", "save it as UTF-8");
+  try {
+    const YAML::Node node = YAML::Load(text);
+    int values = 0;
+    check_tree(node, origin, 0, values);
+    return node;
+  } catch (const YAML::Exception& error) {
+    throw Error(origin + ":" + std::to_string(error.mark.line + 1), error.msg, "YAML is expected");
+  }
+}
+
 }  // namespace
 
 YamlNode::YamlNode(std::string origin, const YAML::Node& node, std::string name)
     : origin_(std::move(origin)), node_(std::make_shared<const YAML::Node>(node)), name_(std::move(name)) {}
 
 YamlNode YamlNode::parse(const std::string& text, const std::string& origin, std::string name) {
-  try {
-    return {origin, YAML::Load(text), std::move(name)};
-  } catch (const YAML::Exception& error) {
-    throw Error(origin + ":" + std::to_string(error.mark.line + 1), error.msg, "YAML is expected");
-  }
+  return {origin, load(text, origin), std::move(name)};
 }
 
 YamlNode YamlNode::read(const std::filesystem::path& path, std::string name) {
@@ -65,13 +98,13 @@ std::string YamlNode::text() const {
   return value;
 }
 
-int YamlNode::whole_number(int least) const {
+int YamlNode::whole_number(int least, int most) const {
   const std::string value = scalar();
   int number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  if (error != std::errc() || end != value.data() + value.size() || number < least) {
+  if (error != std::errc() || end != value.data() + value.size() || number < least || number > most) {
     fail("is '" + value + "'",
-         "a whole number " + (least >= 0 ? "from " + std::to_string(least) + " on " : "") + "is expected");
+         "a whole number from " + std::to_string(least) + " to " + std::to_string(most) + " is expected");
   }
   return number;
 }
@@ -131,13 +164,12 @@ std::vector<YamlNode> YamlNode::elements() const {
 std::vector<std::pair<std::string, YamlNode>> YamlNode::entries() const {
   if (!node_->IsMap()) fail("has no lines `key: value`", "see the documentation for the keys");
   std::vector<std::pair<std::string, YamlNode>> entries;
+  std::set<std::string> keys;
   for (const auto& entry : *node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     const YamlNode here = child(entry.first, key);
     if (key.empty()) here.fail("is no key", "a key is a word");
-    for (const auto& [other, value] : entries) {
-      if (other == key) here.fail("is set twice", "remove one of the lines");
-    }
+    if (!keys.insert(key).second) here.fail("is set twice", "remove one of the lines");
     entries.emplace_back(key, child(entry.second, key));
   }
   return entries;

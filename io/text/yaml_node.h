@@ -17,7 +17,8 @@ namespace ldso {
 /// A value: what it is called in messages, and where it stands.
 class YamlNode {
  public:
-  /// The root of a YAML text, `name` in messages. Throws Error naming the line if it is none.
+  /// The root of a YAML text, `name` in messages. Throws Error naming the line if it is none, if
+  /// it is no UTF-8, or if it contains itself or repeats itself without end by aliases.
   static YamlNode parse(const std::string& text, const std::string& origin, std::string name);
   /// Of a file, which may begin with OpenCV's "%YAML:1.0", which is not YAML. Throws Error if it cannot be read.
   static YamlNode read(const std::filesystem::path& path, std::string name);
@@ -31,7 +32,7 @@ class YamlNode {
   // Throw Error if the value is of another kind.
   std::string text() const;    ///< Not empty.
   std::string scalar() const;  ///< Any single value.
-  int whole_number(int least) const;
+  int whole_number(int least, int most = 1'000'000'000) const;
   double number() const;  ///< Finite.
   double positive_number() const;
   bool yes_or_no() const;

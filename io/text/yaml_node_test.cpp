@@ -47,5 +47,30 @@ TEST(YamlNode, OpenCvsHeaderIsNoYaml) {
   EXPECT_NE(error_of([&] { node.at("n").number(); }).find("a.yaml:2: "), std::string::npos);
 }
 
+TEST(YamlNode, AliasesMakeNoEndlessTrees) {
+  EXPECT_NE(error_of([] { parsed("a: &a {b: *a}\n"); }).find("a.yaml:1: is nested more than 64 levels"),
+            std::string::npos);
+  EXPECT_NE(error_of([] { parsed("n: 1\na: &a [*a, *a]\n"); }).find("contains itself"), std::string::npos);
+  std::string laughs = "l0: &l0 [x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string before = " *l" + std::to_string(i - 1);
+    laughs += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " [" + before + "," + before + "," + before + "," +
+              before + "," + before + "," + before + "]\n";
+  }
+  EXPECT_NE(error_of([&] { parsed(laughs); }).find("more than 200000 values"), std::string::npos);
+  EXPECT_EQ(parsed("a: &a 3\nb: *a\n").at("b").whole_number(0), 3);
+}
+
+TEST(YamlNode, IsTextInUtf8) {
+  EXPECT_NE(error_of([] { parsed("loops: {vocabulary: b\xe4r}\n"); }).find("a.yaml: is no text in UTF-8"),
+            std::string::npos);
+  EXPECT_EQ(parsed("name: b\xc3\xa4r\n").at("name").text(), "b\xc3\xa4r");
+}
+
+TEST(YamlNode, WholeNumbersHaveLimits) {
+  EXPECT_NE(error_of([] { parsed("n: 7\n").at("n").whole_number(1, 6); }).find("from 1 to 6"), std::string::npos);
+  EXPECT_NE(error_of([] { parsed("n: 99999999999999999999\n").at("n").whole_number(1); }), "");
+}
+
 }  // namespace
 }  // namespace ldso

@@ -9,6 +9,8 @@ namespace ldso {
 
 /// Exit code of `ldso run` if nothing was tracked in the whole sequence; results are written all the same.
 inline constexpr int kNothingTrackedExitCode = 2;
+/// Not all results could be written: the disk is full, for instance.
+inline constexpr int kIncompleteExitCode = 3;
 
 /// `ldso run SEQUENCE -o OUT`: images to a trajectory and a map. Ends with kNothingTrackedExitCode or, by Ctrl-C, with
 /// kInterruptedExitCode.

@@ -1,10 +1,10 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
 #include "ldso/error.h"
+#include "output/checkpoint_file.h"
 #include "output/run_files.h"
 #include "util/whole_file.h"
 
@@ -12,18 +12,6 @@ namespace ldso {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The frames that were processed, of those that there are.
-std::string describe_frames(const fs::path& checkpoint, const std::string& text) {
-  try {
-    const auto json = nlohmann::json::parse(text);
-    return std::to_string(json.at("counts").at("frames").get<int>()) + " of " +
-           std::to_string(json.at("sequence").at("frames").get<int>()) + " frames, " +
-           std::to_string(json.at("counts").at("frames_with_pose").get<int>()) + " with a pose";
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(checkpoint.string(), std::string("it is damaged (") + error.what() + ")", "run the sequence again");
-  }
-}
 
 void resume(const fs::path& folder) {
   if (fs::exists(folder / kRunJson)) {
@@ -34,7 +22,7 @@ void resume(const fs::path& folder) {
   if (!fs::exists(checkpoint))
     throw Error(folder.string(), "there is no checkpoint of a run",
                 "give the folder of an `ldso run -o` that was cut off");
-  const std::string text = read_file(checkpoint), frames = describe_frames(checkpoint, text);
+  const std::string text = read_file(checkpoint), frames = describe_checkpoint(text, checkpoint.string());
   OutputFolder out = open_run_folder(folder);
   write_file(out.file(kRunJson), text);
   out.remove(kCheckpointName);

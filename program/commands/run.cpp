@@ -24,6 +24,7 @@
 #include "terminal/browser.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_display.h"
+#include "util/out_of_memory.h"
 #include "viewer/live_run.h"
 
 namespace ldso {
@@ -215,14 +216,26 @@ void draw_loops(const RunArguments& a, const Dataset& dataset, OutputFolder& out
   }
 }
 
-/// A report that cannot be written costs itself only.
-void report(OutputFolder& out, const Dataset& dataset, RunSummary& summary) {
+/// Does it; what it throws becomes a problem of the results, and costs nothing else.
+template <class Action>
+void keep_going(const Action& action, std::vector<std::string>& problems) {
   try {
-    write_report(out.file(kReportName), summary, dataset);
+    action();
   } catch (const std::exception& error) {
-    summary.warnings.push_back(std::string("there is no report: ") + error.what());
-    std::cerr << "warning: " << summary.warnings.back() << "\n";
+    problems.push_back(problem_of(error, "writing results"));
   }
+}
+
+/// Everything that the run leaves, as far as it can be written; what could not be is said. Whether all was.
+bool write_results(const RunArguments& a, const Dataset& dataset, OutputFolder& out, RunSummary& summary) {
+  // What was computed is safe before pictures read frames again.
+  std::vector<std::string> problems = write_run_files(out, summary, a.kitti);
+  keep_going([&] { draw_loops(a, dataset, out, summary); }, problems);
+  if (!a.no_report) keep_going([&] { write_report(out.file(kReportName), summary, dataset); }, problems);
+  if (!problems.empty() && summary.run.error.empty()) summary.run.error = "results are missing: " + problems.front();
+  keep_going([&] { write_run_json(out, summary, dataset); }, problems);
+  for (const std::string& problem : problems) std::cerr << "error: " << problem << "\n";
+  return problems.empty();
 }
 
 int exit_code_of(const RunSummary& summary) {
@@ -256,15 +269,15 @@ int run(const RunArguments& a) {
   collect_results(summary);
   summary.evaluation = evaluate_run(summary.trajectory, dataset);
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
-  // What was computed is safe before pictures read frames again.
-  write_run_files(out, summary, a.kitti);
-  draw_loops(a, dataset, out, summary);
-  if (!a.no_report) report(out, dataset, summary);
-  write_run_json(out, summary, dataset);
-
+  const std::string ended_early = summary.run.error;
+  const bool is_complete = write_results(a, dataset, out, summary);
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
-  if (!summary.run.error.empty()) {
-    throw Error(a.sequence.string(), "the run ended early: " + summary.run.error,
+  if (!is_complete) {
+    std::cerr << "error: " << a.out.string() << ": results are missing; make room and run again\n";
+    return kIncompleteExitCode;
+  }
+  if (!ended_early.empty()) {
+    throw Error(a.sequence.string(), "the run ended early: " + ended_early,
                 "the frames up to there are saved in " + a.out.string());
   }
   const int code = exit_code_of(summary);

@@ -3,6 +3,9 @@
 #include <exception>
 #include <utility>
 
+#include "ldso/error.h"
+#include "util/out_of_memory.h"
+
 namespace ldso {
 
 CheckpointWriter::CheckpointWriter(OutputFolder& out, RunSummary base, const Dataset& dataset,
@@ -24,10 +27,10 @@ void CheckpointWriter::write(SequenceRun run, std::vector<std::uint8_t> recordin
 void CheckpointWriter::write_files(RunSummary summary) {
   try {
     collect_results(summary);
-    write_run_files(out_, summary, false);
+    for (const std::string& problem : write_run_files(out_, summary, false)) throw Error(problem);
     write_checkpoint_json(out_, summary, dataset_);
   } catch (const std::exception& error) {
-    warn_(std::string("a checkpoint could not be written: ") + error.what());
+    warn_("a checkpoint could not be written: " + problem_of(error, "writing it"));
   }
 }
 

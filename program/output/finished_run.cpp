@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/text/json_text.h"
 #include "ldso/error.h"
 #include "output/run_files.h"
 #include "util/whole_file.h"
@@ -13,14 +14,19 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 PinholeIntrinsics camera_of(const Json& json) {
-  return {json.at("width"), json.at("height"), json.at("fx"), json.at("fy"), json.at("cx"), json.at("cy")};
+  return {json_value<int>(json.at("width")),
+          json_value<int>(json.at("height")),
+          json.at("fx"),
+          json.at("fy"),
+          json.at("cx"),
+          json.at("cy")};
 }
 
 DatasetOptions options_of(const Json& sequence) {
   DatasetOptions options;
-  options.start = sequence.at("start");
-  if (!sequence.at("end").is_null()) options.end = sequence.at("end").get<int>();
-  options.stride = sequence.at("stride");
+  options.start = json_value<int>(sequence.at("start"));
+  if (!sequence.at("end").is_null()) options.end = json_value<int>(sequence.at("end"));
+  options.stride = json_value<int>(sequence.at("stride"));
   options.reverse = sequence.at("reverse");
   // Runs of older versions do not say these.
   if (sequence.contains("calib") && !sequence["calib"].is_null())
@@ -38,7 +44,7 @@ FinishedRun read_finished_run(const fs::path& folder) {
   FinishedRun run;
   run.folder = folder;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = parse_json<Json>(read_file(path), path.string());
     const Json& sequence = json.at("sequence");
     run.sequence = sequence.at("path").get<std::string>();
     run.options = options_of(sequence);

@@ -8,6 +8,7 @@
 
 #include "evaluation/trajectory_picture.h"
 #include "experiment/jobs/job_file.h"
+#include "io/text/json_text.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/ply_file.h"
@@ -52,7 +53,7 @@ void write_loop_files(OutputFolder& out, const RunSummary& summary) {
   if (!summary.settings.loops.enabled) return;
   write_tum_trajectory(out.file("trajectory_odometry.txt"), summary.odometry_trajectory);
   write_ply(out.file("map_odometry.ply"), ply_points(summary.odometry_points));
-  write_file(out.file("loops.json"), loops_json(summary.run.result.loops).dump(2) + "\n");
+  write_file(out.file("loops.json"), json_text(loops_json(summary.run.result.loops), 2) + "\n");
 }
 
 /// All that a run may write, but for calibrations.
@@ -87,11 +88,38 @@ void write_segments(OutputFolder& out, const RunSummary& summary) {
   }
 }
 
+/// The calibration that was found to be better, if one was.
+void write_cameras(OutputFolder& out, const RunSummary& summary) {
+  for (const char* name : {kCameraName, kBetterCameraName}) out.remove(name);
+  if (summary.run.is_corrected) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
+  if (summary.run.better_calibration)
+    write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.better_calibration));
+}
+
+/// Writes results one after the other; one that cannot be written costs itself only.
+class ResultWriter {
+ public:
+  template <class Write>
+  void write(const Write& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      problems_.emplace_back(error.what());
+    }
+  }
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::vector<std::string> problems_;
+};
+
 /// What run.json says of a run; null if there is none that ldso wrote.
 nlohmann::json earlier_run(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_regular_file(folder / kRunJson, error)) return nullptr;
-  nlohmann::json json = nlohmann::json::parse(read_file(folder / kRunJson), nullptr, false);
+  const std::string text = read_file(folder / kRunJson);
+  if (is_deep_json(text)) return nullptr;
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   return json.is_object() && json.contains("/versions/ldso"_json_pointer) ? json : nullptr;
 }
 
@@ -144,28 +172,30 @@ void refuse_output_in_input(const fs::path& folder, const fs::path& sequence, co
   }
 }
 
-void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti) {
-  write_tum_trajectory(out.file("trajectory.txt"), summary.trajectory);
-  write_tum_trajectory(out.file("keyframes.txt"), summary.keyframes);
-  out.remove("trajectory_kitti.txt");
-  if (kitti) write_kitti_poses(out.file("trajectory_kitti.txt"), summary.trajectory);
-  write_ply(out.file("map.ply"), ply_points(summary.points));
-  write_segments(out, summary);
-  write_loop_files(out, summary);
-  write_picture(out, summary);
-  write_recording(out.file(kRecordingName), summary.recording);
-  for (const char* name : {kCameraName, kBetterCameraName}) out.remove(name);
-  if (summary.run.is_corrected) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
-  if (summary.run.better_calibration)
-    write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.better_calibration));
+std::vector<std::string> write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti) {
+  ResultWriter writer;
+  // In the order of what one would miss most: where the disk is full, the later ones find no room.
+  writer.write([&] { write_tum_trajectory(out.file("trajectory.txt"), summary.trajectory); });
+  writer.write([&] { write_tum_trajectory(out.file("keyframes.txt"), summary.keyframes); });
+  writer.write([&] { write_cameras(out, summary); });
+  writer.write([&] {
+    out.remove("trajectory_kitti.txt");
+    if (kitti) write_kitti_poses(out.file("trajectory_kitti.txt"), summary.trajectory);
+  });
+  writer.write([&] { write_ply(out.file("map.ply"), ply_points(summary.points)); });
+  writer.write([&] { write_segments(out, summary); });
+  writer.write([&] { write_loop_files(out, summary); });
+  writer.write([&] { write_picture(out, summary); });
+  writer.write([&] { write_recording(out.file(kRecordingName), summary.recording); });
+  return writer.problems();
 }
 
 void write_checkpoint_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset) {
-  write_file(out.file(kCheckpointName), run_json(summary, dataset).dump(2) + "\n");
+  write_file(out.file(kCheckpointName), json_text(run_json(summary, dataset), 2) + "\n");
 }
 
 void write_run_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset) {
-  write_file(out.file(kRunJson), run_json(summary, dataset).dump(2) + "\n");
+  write_file(out.file(kRunJson), json_text(run_json(summary, dataset), 2) + "\n");
   out.remove(kCheckpointName);
 }
 

@@ -2,6 +2,7 @@
 // The folder that a run writes. Other tools rely on the names.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "io/text/output_folder.h"
@@ -28,8 +29,9 @@ void refuse_output_in_input(const std::filesystem::path& folder, const std::file
                             const std::vector<std::filesystem::path>& files);
 
 /// trajectory.txt, keyframes.txt and map.ply; trajectory_kitti.txt if wanted; trajectory.svg if the run was evaluated.
-/// Files of an earlier run that this one does not write are removed.
-void write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti);
+/// Files of an earlier run that this one does not write are removed. One that cannot be written costs itself only:
+/// returns what the errors say.
+std::vector<std::string> write_run_files(OutputFolder& out, const RunSummary& summary, bool kitti);
 
 /// checkpoint.json, after the other files of a run that goes on.
 void write_checkpoint_json(OutputFolder& out, const RunSummary& summary, const Dataset& dataset);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/settings/settings_json.h"
+#include "io/text/json_text.h"
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/settings_file.h"
 #include "report/frame_charts.h"
@@ -61,7 +62,7 @@ void flatten(const nlohmann::json& json, const std::string& prefix,
     if (value.is_object()) {
       flatten(value, name, out);
     } else {
-      out.emplace_back(name, value.dump());
+      out.emplace_back(name, json_text(value));
     }
   }
 }

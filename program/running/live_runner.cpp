@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <new>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "slam/calibration_watch.h"
 #include "util/bounded_queue.h"
 #include "util/log.h"
+#include "util/out_of_memory.h"
 
 namespace ldso {
 namespace {
@@ -42,7 +44,7 @@ class LiveReader {
           try {
             read_all(token);
           } catch (const std::exception& error) {
-            failure_ = error.what();
+            failure_ = problem_of(error, "waiting for frames");
           }
           queue_.close();
         }) {}
@@ -86,6 +88,10 @@ class LiveReader {
     LiveItem item{arrival, Clock::now(), std::nullopt, ""};
     try {
       item.ready = make_ready([&] { return stream_.read(); }, preprocessor_);
+    } catch (const std::bad_alloc& error) {
+      // No fault of the frame: it ends the run instead of being skipped.
+      if (dynamic_cast<const OutOfMemory*>(&error) != nullptr) throw;
+      throw OutOfMemory("reading frame " + std::to_string(arrival.index));
     } catch (const std::exception& error) {
       item.error = error.what();
     }
@@ -196,7 +202,7 @@ SequenceRun run_live(FrameStream& stream, const Settings& settings, const LogSin
     run.live->dropped = reader.dropped();
     run.live->longest_gap = reader.longest_gap();
   } catch (const std::exception& error) {
-    run.error = error.what();
+    run.error = problem_of(error, "processing a frame");
   }
   run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   run.result = pipeline.finish();

@@ -11,6 +11,7 @@
 #include "running/ready_frame.h"
 #include "slam/calibration_search.h"
 #include "util/log.h"
+#include "util/out_of_memory.h"
 
 namespace ldso {
 namespace {
@@ -55,7 +56,7 @@ class Pass {
     const FramePreprocessor& preprocessor = pipeline_.preprocessor();
     Reader reader(dataset_.size(),
                   [&](int index) { return make_ready([&] { return dataset_.read(index); }, preprocessor); });
-    for (int done = 1; done <= dataset_.size(); ++done) {
+    for (done_ = 0; done_ < dataset_.size(); ++done_) {
       if (must_stop(options)) return PassEnd::kStopped;
       std::optional<Reader::Item> item;
       {
@@ -64,7 +65,7 @@ class Pass {
       }
       if (!item) break;
       const FrameRecord& frame = process(dataset_, pipeline_, *item);
-      if (options.progress) options.progress({done, dataset_.size(), pipeline_.keyframes(), frame, 0});
+      if (options.progress) options.progress({done_ + 1, dataset_.size(), pipeline_.keyframes(), frame, 0});
       checkpoints.after_frame(pipeline_, run_);
       if (watch_) watch_->add(frame, pipeline_);
       if (watch_ && watch_->is_over() && begins_anew()) return PassEnd::kBeginsAnew;
@@ -73,6 +74,7 @@ class Pass {
   }
 
   SlamResult finish() { return pipeline_.finish(); }
+  int done() const { return done_; }  ///< Frames.
 
  private:
   /// Once, after the frames that are watched.
@@ -89,6 +91,7 @@ class Pass {
   SequenceRun& run_;
   const LogSink& log_;
   Pipeline pipeline_;
+  int done_ = 0;
   CalibrationSearch* search_ = nullptr;
   std::optional<CalibrationWatch> watch_;
 };
@@ -108,7 +111,7 @@ PassEnd run_pass(Pass& pass, const RunOptions& options, CheckpointClock& checkpo
   try {
     return pass.run(options, checkpoints);
   } catch (const std::exception& failure) {
-    run.error = failure.what();
+    run.error = problem_of(failure, "processing frame " + std::to_string(pass.done()));
     return PassEnd::kDone;
   }
 }

@@ -60,6 +60,15 @@ TEST(SequenceRunner, CheckpointsAreTheRunSoFarAndChangeNothing) {
   }
 }
 
+TEST(SequenceRunner, WantOfMemoryEndsTheRunAndSkipsNothing) {
+  SceneDataset dataset(30);
+  dataset.without_memory = 20;
+  const SequenceRun done = run(dataset);
+  EXPECT_EQ(done.error.find("out of memory while reading frame 20; "), 0u) << done.error;
+  EXPECT_EQ(done.result.skipped, 0);
+  EXPECT_EQ(done.result.frames.size(), 20u);
+}
+
 TEST(SequenceRunner, BadFramesAreSkippedWithTheirReason) {
   SceneDataset dataset(30);
   dataset.unreadable = 18;

@@ -3,6 +3,7 @@
 // The drawn scene as a dataset; some frames may be bad.
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ class SceneDataset final : public Dataset {
 
   int unreadable = -1;
   int wrong_size = -1;
+  int without_memory = -1;
 
   int size() const override { return size_; }
   double timestamp(int index) const override { return step_ * index; }
@@ -29,6 +31,7 @@ class SceneDataset final : public Dataset {
 
   RawFrame read(int index) const override {
     if (index == unreadable) throw Error("image " + std::to_string(index), "cannot be decoded", "replace it");
+    if (index == without_memory) throw std::bad_alloc();
     RawFrame raw;
     raw.id = index;
     raw.timestamp = timestamp(index);

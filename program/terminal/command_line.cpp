@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/text/nearest_name.h"
+#include "util/out_of_memory.h"
 
 namespace ldso {
 namespace {
@@ -77,7 +78,8 @@ int run_command_line(CLI::App& app, int argc, const char* const* argv, const int
   }
   try {
     app.parse(argc, argv);
-    return exit_code;
+    if (std::cout.flush()) return exit_code;
+    return fail("the output cannot be written to where it goes; check that there is room");
   } catch (const CLI::ExtrasError&) {
     return fail(describe_extras(app));
   } catch (const CLI::Success& success) {  // --help, --version
@@ -89,7 +91,7 @@ int run_command_line(CLI::App& app, int argc, const char* const* argv, const int
     const CLI::App& command = chosen_command(app);
     return fail(error.what() + see_help(command));
   } catch (const std::exception& error) {
-    return fail(error.what());
+    return fail(problem_of(error, "running `ldso " + first + "`"));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/text/json_text.h"
 #include "ldso/error.h"
 #include "util/format_text.h"
 
@@ -166,7 +167,7 @@ std::string result_json(const EvaluationResult& result) {
                      {"scale_drift", json_or_null(result.scale_drift)},
                      {"kitti_drift", json_or_null(result.kitti_drift)},
                      {"tum_mono", json_or_null(result.tum_mono)}};
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace ldso

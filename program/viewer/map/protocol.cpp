@@ -81,17 +81,26 @@ void put_frame(MessageWriter& out, const FrameEvent& event) {
   out.align(8);
 }
 
+/// Coordinates beyond this are damage; below it products of a few poses stay finite.
+constexpr double kFarthest = 1e60;
+
+bool is_sane(double value) { return std::abs(value) < kFarthest; }
+
 SE3d get_pose(ByteReader& in) {
   Eigen::Vector3d t;
   Eigen::Quaterniond q;
   for (int i = 0; i < 3; ++i) t[i] = in.get<double>();
   for (int i = 0; i < 4; ++i) q.coeffs()[i] = in.get<double>();
+  const bool is_pose = is_sane(t.x()) && is_sane(t.y()) && is_sane(t.z()) && std::abs(q.norm() - 1) < 1e-3;
+  if (!is_pose) in.fail("a pose in it is none");
   return {SO3d(q), t};
 }
 
 Sim3d get_similarity(ByteReader& in) {
   const SE3d T = get_pose(in);
-  return {T.rotation(), T.translation(), in.get<double>()};
+  const auto scale = in.get<double>();
+  if (!(scale > 1 / kFarthest && is_sane(scale))) in.fail("a scale in it is none");
+  return {T.rotation(), T.translation(), scale};
 }
 
 /// As they lie in memory.
@@ -293,6 +302,9 @@ Hello decode_hello(std::span<const std::uint8_t> payload, const std::string& nam
   hello.camera.width = static_cast<int>(in.get<std::uint32_t>());
   hello.camera.height = static_cast<int>(in.get<std::uint32_t>());
   for (double* x : {&hello.camera.fx, &hello.camera.fy, &hello.camera.cx, &hello.camera.cy}) *x = in.get<double>();
+  const PinholeIntrinsics& c = hello.camera;
+  if (c.width < 0 || c.height < 0 || !is_sane(c.fx) || !is_sane(c.fy) || !is_sane(c.cx) || !is_sane(c.cy))
+    in.fail("its camera is none");
   hello.name = in.get_text(in.get<std::uint32_t>());
   return hello;
 }
@@ -311,6 +323,8 @@ Keyframe decode_keyframe(std::span<const std::uint8_t> payload, const std::strin
   const auto links = in.get<std::uint32_t>();
   get_all(in, links, keyframe.links);
   get_all(in, points, keyframe.points);
+  const auto is_point = [](const Eigen::Vector3f& point) { return point.allFinite(); };
+  if (!std::all_of(keyframe.points.begin(), keyframe.points.end(), is_point)) in.fail("a point in it is not finite");
   get_all(in, points, keyframe.depth_stddev);
   get_all(in, points, keyframe.intensity);
   get_all(in, points, keyframe.is_corner);

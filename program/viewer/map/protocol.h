@@ -131,10 +131,11 @@ std::span<const std::uint8_t> whole(const Message& message);
 /// Cuts a stream into its messages; `name` is what errors call it. Throws Error if it is none.
 std::vector<Message> split(std::span<const std::uint8_t> stream, const std::string& name);
 
-/// Of a hello. Throws Error if it is damaged or of another version.
+/// Of a hello. Throws Error if it is damaged (the camera is no camera) or of another version.
 Hello decode_hello(std::span<const std::uint8_t> payload, const std::string& name);
 
-/// Of a keyframe, of corrected poses. They throw Error if the payload is cut off.
+/// Of a keyframe, of corrected poses. They throw Error if the payload is cut off, or if a pose, scale
+/// or point in it is none.
 Keyframe decode_keyframe(std::span<const std::uint8_t> payload, const std::string& name);
 Poses decode_poses(std::span<const std::uint8_t> payload, const std::string& name);
 

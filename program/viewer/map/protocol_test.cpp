@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace ldso::protocol {
@@ -178,6 +179,40 @@ TEST(Protocol, CommandsOfOneByte) {
   EXPECT_FALSE(decode_command(unknown));
   EXPECT_FALSE(decode_command(two));
   EXPECT_FALSE(decode_command({}));
+}
+
+TEST(Protocol, NumbersThatAreNoneAreRefused) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto is_refused = [](const Bytes& bytes, std::size_t offset, auto value) {
+    Bytes changed = bytes;
+    const auto raw = to_bytes(value);
+    std::copy(raw.begin(), raw.end(), changed.begin() + static_cast<std::ptrdiff_t>(offset));
+    const Message message = only_message(changed);
+    try {
+      if (message.type == MessageType::kHello) decode_hello(message.payload, "test");
+      if (message.type == MessageType::kKeyframe) decode_keyframe(message.payload, "test");
+      if (message.type == MessageType::kPoses) decode_poses(message.payload, "test");
+      return false;
+    } catch (const Error&) {
+      return true;
+    }
+  };
+  Keyframe keyframe;
+  keyframe.points = {{1, 2, 3}};
+  keyframe.depth_stddev = {0.1F};
+  keyframe.intensity = keyframe.is_corner = {1};
+  const Bytes bytes = encode(keyframe);
+  EXPECT_FALSE(is_refused(bytes, 24, 5.0));
+  EXPECT_TRUE(is_refused(bytes, 24, kNan));
+  EXPECT_TRUE(is_refused(bytes, 24, 1e200));
+  EXPECT_TRUE(is_refused(bytes, 72, 0.0)) << "a quaternion of length 0";
+  EXPECT_TRUE(is_refused(bytes, 88, std::numeric_limits<float>::infinity())) << "a point";
+  EXPECT_TRUE(is_refused(bytes, 80, std::uint32_t{0xffffffff})) << "the number of points";
+  const Bytes poses = encode(Poses{});
+  EXPECT_FALSE(is_refused(poses, 72, 2.0));
+  for (const double scale : {0.0, -1.0, kNan}) EXPECT_TRUE(is_refused(poses, 72, scale)) << scale;
+  EXPECT_TRUE(is_refused(poses, 80, std::uint32_t{0xffffffff})) << "the number of poses";
+  EXPECT_TRUE(is_refused(encode(Hello()), 40, kNan)) << "a focal length";
 }
 
 }  // namespace

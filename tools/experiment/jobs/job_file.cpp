@@ -1,7 +1,9 @@
 #include "experiment/jobs/job_file.h"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
+#include "io/text/json_text.h"
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
@@ -26,7 +28,9 @@ Json json_of(const ExperimentJob& job) {
 
 ExperimentJob job_of(const Json& json) {
   ExperimentJob job;
-  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
+  visit_identity(job, [&](const char* name, auto& value) {
+    value = json_value<std::remove_cvref_t<decltype(value)>>(json.at(name));
+  });
   job.path = json.at("path").get<std::string>();
   job.metric = parse_job_metric(json.at("metric").get<std::string>());
   if (const Json& truth = json.at("ground_truth"); !truth.is_null()) job.ground_truth = truth.get<std::string>();
@@ -47,7 +51,7 @@ JobMetric parse_job_metric(const std::string& name) {
 
 void write_job(const fs::path& folder, const ExperimentJob& job) {
   create_folder(folder);
-  write_file(folder / kFileName, json_of(job).dump(2) + "\n");
+  write_file(folder / kFileName, json_text(json_of(job), 2) + "\n");
 }
 
 bool has_job(const fs::path& folder) {
@@ -63,7 +67,7 @@ ExperimentJob read_job(const fs::path& folder) {
   const fs::path path = folder / kFileName;
   const std::string text = read_file(path);
   try {
-    return job_of(Json::parse(text));
+    return job_of(parse_json<Json>(text, path.string()));
   } catch (const Json::exception& error) {
     throw Error(path.string(), std::string("is not the description of a job (") + error.what() + ")",
                 "remove the folder of the job; the experiment makes it again");

@@ -4,7 +4,9 @@
 #include <system_error>
 #include <utility>
 
+#include "io/text/json_text.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -45,7 +47,7 @@ std::map<std::string, RunStage> stages_of(const Json& run) {
   std::map<std::string, RunStage> stages;
   const Json all = at(run, "/timing/stages");
   for (const auto& [name, stage] : all.items()) {
-    stages[name] = {stage.at("calls").get<std::int64_t>(), stage.at("total_ms").get<double>()};
+    stages[name] = {json_value<std::int64_t>(stage.at("calls")), stage.at("total_ms").get<double>()};
   }
   return stages;
 }
@@ -79,7 +81,7 @@ std::optional<LostEnd> lost_end(const Json& run, double frames) {
   return LostEnd{last.at("first").get<double>(), last.value("reason", "")};
 }
 
-std::string whole(double value) { return std::to_string(static_cast<long long>(value)); }
+std::string whole(double value) { return format_text("%.0f", value); }
 
 /// Why a run that came to its end counts as failed; empty if it does not.
 std::string reason_of_loss(const Json& run) {
@@ -122,7 +124,7 @@ RunOutcome outcome_of_failure(const Json& failure) {
   if (!outcome.reason.empty()) return outcome;
   const Json signal = at(failure, "/signal");
   outcome.reason =
-      signal.is_null() ? "exit code " + at(failure, "/exit_code").dump() : "killed by signal " + signal.dump();
+      signal.is_null() ? "exit code " + json_text(at(failure, "/exit_code")) : "killed by signal " + json_text(signal);
   return outcome;
 }
 
@@ -141,7 +143,7 @@ RunOutcome read_outcome(const fs::path& path, Convert convert) {
   const fs::file_time_type written = fs::last_write_time(path, error_code);
   if (error_code) return {};
   try {
-    RunOutcome outcome = convert(Json::parse(read_file(path)));
+    RunOutcome outcome = convert(parse_json<Json>(read_file(path), path.string()));
     outcome.written = written;
     return outcome;
   } catch (const Json::exception& error) {
@@ -166,7 +168,7 @@ void write_failure(const fs::path& folder, const JobFailure& failure) {
   const nlohmann::ordered_json json{{"exit_code", failure.exit_code},
                                     {"signal", failure.signal ? Json(*failure.signal) : Json()},
                                     {"reason", failure.reason}};
-  write_file(folder / kFailureName, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / kFailureName, json_text(json, 2) + "\n");
 }
 
 void clear_run(const fs::path& folder) {

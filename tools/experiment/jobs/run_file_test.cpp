@@ -119,5 +119,10 @@ TEST_F(RunFile, ADamagedFileIsPendingAndSaysSo) {
   EXPECT_NE(read_run(folder_).reason.find("run.json: is damaged"), std::string::npos);
 }
 
+TEST_F(RunFile, ADeepFileIsDamagedToo) {
+  write(folder_ / "run.json", R"({"interrupted": false, "untracked": )" + std::string(500'000, '['));
+  EXPECT_NE(read_run(folder_).reason.find("run.json: is damaged (nested"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ldso

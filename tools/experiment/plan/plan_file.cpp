@@ -24,6 +24,9 @@ const Names kSequenceKeys{"path", "needs",        "start",  "end",      "stride"
 const Names kStrategies{"corners", "gradient", "random"};
 const Names kDirections{"forward", "backward"};
 const Names kVary{"start", "seed", "none"};
+/// Each is a folder with a trajectory and a map in it.
+constexpr int kMostJobs = 100'000;
+
 const Names kMetrics{to_string(JobMetric::kAte), to_string(JobMetric::kTumMono)};
 
 Names with(Names names, const Names& more) {
@@ -79,6 +82,7 @@ class PlanReader {
     if (!datasets) root.fail("has no datasets", "give `datasets: {NAME: {root: FOLDER, sequences: [..]}}`");
     make_variants(root);
     read_datasets(*datasets);
+    check_number(root);
     check_settings();
     return std::move(plan_);
   }
@@ -87,7 +91,7 @@ class PlanReader {
   void read_plan_key(const std::string& key, const YamlNode& value) {
     if (key == "title") plan_.title = value.text();
     if (key == "root") root_ = value.text();
-    if (key == "repetitions") plan_.repetitions = value.whole_number(1);
+    if (key == "repetitions") plan_.repetitions = value.whole_number(1, kMostJobs);
     if (key == "threads") plan_.threads = value.whole_number(1);
     if (key == "jobs") plan_.jobs = value.whole_number(1);
     if (key == "vary") plan_.vary = static_cast<Vary>(value.one_of(kVary));
@@ -264,6 +268,12 @@ class PlanReader {
     if (keys.ground_truth)
       sequence.ground_truth = absolute(sequence.path, with_name(*keys.ground_truth, sequence.name));
     return sequence;
+  }
+
+  void check_number(const YamlNode& root) const {
+    const std::size_t ways = plan_.variants.size() * plan_.directions.size() * plan_.sequences.size();
+    if (static_cast<std::size_t>(plan_.repetitions) * ways <= static_cast<std::size_t>(kMostJobs)) return;
+    root.fail("has more than " + std::to_string(kMostJobs) + " jobs", "give fewer repetitions, variants or sequences");
   }
 
   // Settings.

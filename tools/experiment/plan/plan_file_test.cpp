@@ -145,8 +145,8 @@ struct BadPlan {
 TEST(PlanFile, MistakesAreNamedWithTheirLine) {
   const std::vector<BadPlan> bad{
       {"repetitons: 3\n", "plan.yaml:2: unknown key 'repetitons'", "did you mean 'repetitions'?"},
-      {"\n\nrepetitions: many\n", "plan.yaml:4: 'repetitions' is 'many'", "a whole number from 1 on"},
-      {"repetitions: 0\n", "plan.yaml:2: 'repetitions' is '0'", "from 1 on"},
+      {"\n\nrepetitions: many\n", "plan.yaml:4: 'repetitions' is 'many'", "a whole number from 1 to 100000"},
+      {"repetitions: 0\n", "plan.yaml:2: 'repetitions' is '0'", "from 1 to 100000"},
       {"repetitions: [1]\n", "plan.yaml:2: 'repetitions' has no single value", "`repetitions: value`"},
       {"strategies: [corners,\n  gradients]\n", "plan.yaml:3: 'strategies' is 'gradients'", "did you mean gradient?"},
       {"strategies: []\n", "plan.yaml:2: 'strategies' is empty", "at least one"},
@@ -183,6 +183,9 @@ TEST(PlanFile, MistakesInDatasetsAreNamedWithTheirLine) {
       {"datasets: {tum: {root: /d, sequences: [{name: a, strat: 3}]}}\n", "unknown key 'strat'", "'start'?"},
       {"datasets: {tum: {root: /d, fps: -1, sequences: [a]}}\n", "'fps' is '-1'", "above 0"},
       {"datasets: {tum: {root: /d, end: 0, sequences: [a]}}\n", "'end' leaves no frame", "count from 1"},
+      {"settings: &a {b: *a}\ndatasets: {d: {sequences: [s]}}\n", "contains itself", "without aliases"},
+      {"repetitions: 2000000000\ndatasets: {tum: {sequences: [a]}}\n", "'repetitions' is '2000000000'", "to 100000"},
+      {"repetitions: 60000\ndatasets: {tum: {sequences: [a, b]}}\n", "more than 100000 jobs", "fewer"},
       {"datasets: {tum: {root: /d, metric: rmse, sequences: [a]}}\n", "'metric' is 'rmse'", "ate or tum_mono"},
   };
   for (const BadPlan& plan : bad) {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "io/text/json_text.h"
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
@@ -24,7 +25,7 @@ void write_listing(const fs::path& experiment, const ExperimentListing& listing)
   refuse_other_file(file, {kBeginning}, "the list of an experiment");
   create_folder(experiment);
   const Json json{{"title", listing.title}, {"jobs", listing.jobs}};
-  write_file(file, json.dump(2) + "\n");
+  write_file(file, json_text(json, 2) + "\n");
 }
 
 ExperimentListing read_listing(const fs::path& experiment) {
@@ -35,7 +36,7 @@ ExperimentListing read_listing(const fs::path& experiment) {
                 "give the folder that `ldso experiment run` had by -o");
   }
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = parse_json<Json>(read_file(path), path.string());
     return {json.at("title").get<std::string>(), json.at("jobs").get<std::vector<std::string>>()};
   } catch (const Json::exception& problem) {
     throw Error(path.string(), std::string("is damaged (") + problem.what() + ")",

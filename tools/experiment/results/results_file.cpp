@@ -1,14 +1,17 @@
 #include "experiment/results/results_file.h"
 
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "experiment/jobs/job_file.h"
 #include "experiment/results/csv.h"
+#include "io/text/json_text.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "util/whole_file.h"
@@ -57,7 +60,9 @@ Json json_of(const JobResult& result) {
 JobResult result_of(const Json& json) {
   JobResult result;
   ExperimentJob& job = result.job;
-  visit_identity(job, [&](const char* name, auto& value) { json.at(name).get_to(value); });
+  visit_identity(job, [&](const char* name, auto& value) {
+    value = json_value<std::remove_cvref_t<decltype(value)>>(json.at(name));
+  });
   job.metric = parse_job_metric(json.at("metric").get<std::string>());
   result.state = parse_run_state(json.at("state").get<std::string>());
   json.at("reason").get_to(result.reason);
@@ -66,7 +71,7 @@ JobResult result_of(const Json& json) {
   });
   if (!json.contains("stages")) return result;
   for (const auto& [name, stage] : json.at("stages").items()) {
-    result.stages[name] = {stage.at("calls").get<std::int64_t>(), stage.at("total_ms").get<double>()};
+    result.stages[name] = {json_value<std::int64_t>(stage.at("calls")), stage.at("total_ms").get<double>()};
   }
   return result;
 }
@@ -74,7 +79,7 @@ JobResult result_of(const Json& json) {
 std::vector<JobResult> read_json(const fs::path& path) {
   std::vector<JobResult> jobs;
   try {
-    for (const Json& json : Json::parse(read_file(path))) jobs.push_back(result_of(json));
+    for (const Json& json : parse_json<Json>(read_file(path), path.string())) jobs.push_back(result_of(json));
   } catch (const Json::exception& error) {
     throw Error(path.string() + ", job " + std::to_string(jobs.size() + 1), std::string("is damaged: ") + error.what(),
                 "a results.json of `ldso experiment summarize` is expected");
@@ -96,10 +101,10 @@ Json json_of(const CsvRow& head, const CsvRow& row) {
       json[head[i]] = row[i];
     } else if (head[i] == "loops" || head[i] == "reverse") {
       json[head[i]] = row[i] == "yes";
-    } else if (parse_number(row[i], value)) {
+    } else if (parse_number(row[i], value) && std::isfinite(value)) {
       json[head[i]] = value;
     } else if (!row[i].empty()) {
-      throw Error("column " + head[i] + ": '" + row[i] + "' is not a number");
+      throw Error("column " + head[i] + ": '" + row[i] + "' is not a finite number");
     }
   }
   return json;
@@ -126,7 +131,7 @@ std::vector<JobResult> read_csv(const fs::path& path) {
 std::string results_json(const std::vector<JobResult>& jobs) {
   // A line a job: small, and a change of one shows as one.
   std::string text = "[";
-  for (const JobResult& job : jobs) text.append(text.size() > 1 ? ",\n" : "\n").append(json_of(job).dump());
+  for (const JobResult& job : jobs) text.append(text.size() > 1 ? ",\n" : "\n").append(json_text(json_of(job)));
   return text + "\n]\n";
 }
 

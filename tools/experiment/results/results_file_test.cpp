@@ -76,12 +76,20 @@ TEST_F(ResultsFile, HoldsNoPaths) {
 
 TEST_F(ResultsFile, ErrorsNameFileAndRow) {
   EXPECT_NE(error_of_reading("a.csv", "id,dataset\nx\n").find("a.csv, row 2: has 1 fields"), std::string::npos);
-  EXPECT_NE(error_of_reading("a.csv", "id,ate_m\nx,big\n").find("column ate_m: 'big' is not a number"),
+  EXPECT_NE(error_of_reading("a.csv", "id,ate_m\nx,big\n").find("column ate_m: 'big' is not a finite number"),
             std::string::npos);
+  EXPECT_NE(error_of_reading("a.csv", "id,ate_m\nx,nan\n").find("'nan' is not a finite number"), std::string::npos);
   EXPECT_NE(error_of_reading("a.csv", "id,ate_m\nx,1\n").find("a.csv, row 2"), std::string::npos);
   EXPECT_NE(error_of_reading("a.json", "[{\"id\": \"x\"}]").find("a.json, job 1"), std::string::npos);
   EXPECT_NE(error_of_reading("a.json", "[").find("a.json"), std::string::npos);
   EXPECT_NE(error_of_reading("a.txt", "").find("results.json or results.csv"), std::string::npos);
+}
+
+TEST_F(ResultsFile, ReasonsMayBeAnyBytes) {
+  JobResult result = some_results()[1];
+  result.reason = "b\xe4r.png";
+  write(folder_ / "a.json", results_json({result}));
+  EXPECT_EQ(read_results(folder_ / "a.json")[0].reason, "b\xef\xbf\xbdr.png");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "evaluation/trajectory_evaluation.h"
 #include "evaluation/trajectory_source.h"
 #include "experiment/jobs/job_file.h"
+#include "io/text/json_text.h"
 #include "ldso/error.h"
 #include "ldso/io/dataset.h"
 #include "util/hash.h"
@@ -76,7 +77,7 @@ TrajectoryErrors errors_of(const Json& json) {
 std::optional<RunErrors> read_kept(const fs::path& path, const Json& key) {
   if (!fs::exists(path)) return std::nullopt;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = parse_json<Json>(read_file(path), path.string());
     if (json.at("made_of") != key) return std::nullopt;
     return RunErrors{errors_of(json.at("errors")), errors_of(json.at("odometry_errors")),
                      json.at("is_lost").get<bool>(), json.at("reason").get<std::string>()};
@@ -92,7 +93,7 @@ void keep(const fs::path& path, const Json& key, const RunErrors& run) {
                      {"is_lost", run.is_lost},
                      {"reason", run.reason}};
   try {
-    write_file(path, json.dump(1) + "\n");
+    write_file(path, json_text(json, 1) + "\n");
   } catch (const Error&) {  // Results may lie where they cannot be written; measuring again costs time only.
   }
 }
