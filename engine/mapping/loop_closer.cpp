@@ -21,6 +21,12 @@ double edge_share(std::ptrdiff_t edges) {
   return 2 / (n * (n + 1));
 }
 
+/// What the poses say already needs less confirmation.
+LoopSettings for_predicted(LoopSettings settings) {
+  settings.min_depth_inliers = std::min(settings.min_depth_inliers, settings.prediction.min_depth_inliers);
+  return settings;
+}
+
 Matrix7d inverse_of(const Matrix7d& covariance) { return covariance.ldlt().solve(Matrix7d::Identity()); }
 
 LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& candidate, const LoopVerification& v) {
@@ -50,6 +56,7 @@ LoopRecord make_record(const KeyframeMap& map, int index, const LoopCandidate& c
 LoopCloser::LoopCloser(std::shared_ptr<const Vocabulary> vocabulary, const LoopSettings& settings)
     : vocabulary_(std::move(vocabulary)),
       settings_(settings),
+      predicted_settings_(for_predicted(settings)),
       map_(settings.drift),
       detector_(vocabulary_->word_count(), settings) {}
 
@@ -77,8 +84,10 @@ void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, co
   // Places are seen again for a while: not every keyframe has to say so.
   if (index >= last_accepted_ + settings_.spacing) {
     const StageTimer stage(times_, "loops/verify");
-    for (const LoopCandidate& candidate : candidates) {
-      if (verify(index, candidate, camera, current)) break;
+    if (!verify_predicted(index, camera, current)) {
+      for (const LoopCandidate& candidate : candidates) {
+        if (verify(index, candidate, camera, current, {})) break;
+      }
     }
   }
   map_.forget_depthless(index);
@@ -96,10 +105,29 @@ void LoopCloser::place(int index) {
   corrected_.push_back(corrected_[*before] * Sim3d(map_[*before].T_world_camera).inverse() * odometry);
 }
 
+bool LoopCloser::verify_predicted(int index, const PinholeIntrinsics& camera, const CurrentImage* current) {
+  if (index < last_accepted_ + settings_.prediction.spacing) return false;
+  std::optional<KnownLoop> last;
+  if (!accepted_.empty()) {
+    last = {accepted_.back().current, accepted_.back().candidate, accepted_.back().S_current_candidate};
+  }
+  // Over a short way the odometry is better than most loops, and they would only cost time.
+  constexpr int kGaps = 2;
+  const int newest = index - kGaps * settings_.detection.min_gap;
+  const std::vector<int> excluded = map_.covisible(index, settings_.detection.excluded_hops);
+  const std::optional<KnownLoop> expected =
+      predict_loop(map_, corrected_, last, index, excluded, newest, camera, settings_.prediction);
+  return expected && verify(index, {expected->candidate, 0, 0}, camera, current, expected->S_current_candidate);
+}
+
 bool LoopCloser::verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera,
-                        const CurrentImage* current) {
-  LoopVerification v = verify_loop(map_, index, candidate.index, camera, settings_);
-  if (v.accepted && current != nullptr) sharpen(candidate.index, camera, *current, v);
+                        const CurrentImage* current, const std::optional<Sim3d>& expected) {
+  const LoopSettings& settings = expected ? predicted_settings_ : settings_;
+  LoopVerification v = find_similarity(map_, index, candidate.index, camera, settings, expected);
+  if (v.reason.empty()) {
+    if (current != nullptr) sharpen(candidate.index, camera, *current, v);
+    judge_loop(map_, index, candidate.index, camera, settings, v);
+  }
   records_.push_back(make_record(map_, index, candidate, v));
   if (!v.accepted) return false;
   LoopRecord& record = records_.back();
@@ -108,22 +136,20 @@ bool LoopCloser::verify(int index, const LoopCandidate& candidate, const Pinhole
     const Feature& f = map_[index].features[match.current].feature;
     record.matches.push_back({match.candidate_pixel.x(), match.candidate_pixel.y(), f.u, f.v});
   }
-  Hypothesis hypothesis{
-      index, candidate.index, v.sim3.S_current_candidate, inverse_of(v.sim3.information), records_.size() - 1, false};
+  Hypothesis hypothesis{index, candidate.index, v.sim3.S_current_candidate, inverse_of(v.sim3.information),
+                        records_.size() - 1};
+  hypothesis.predicted = expected.has_value();
   return decide(std::move(hypothesis));
 }
 
 void LoopCloser::sharpen(int candidate, const PinholeIntrinsics& camera, const CurrentImage& current,
                          LoopVerification& verification) const {
-  const std::optional<Sim3Estimate> sharp =
-      sharpen_loop(map_, candidate, camera, current, verification, settings_.sharpening);
-  if (!sharp) return;
-  const auto uncertainty = sim3_uncertainty(sharp->information);
-  if (!uncertainty) return;
-  verification.sim3.S_current_candidate = sharp->S_current_candidate;
-  verification.sim3.information = sharp->information;
-  verification.uncertainty = *uncertainty;
-  verification.num_patch_inliers = sharp->num_inliers;
+  std::optional<SharpLoop> sharp = sharpen_loop(map_, candidate, camera, current, verification, settings_.sharpening);
+  if (!sharp || !sim3_uncertainty(sharp->estimate.information)) return;
+  verification.sim3.S_current_candidate = sharp->estimate.S_current_candidate;
+  verification.sim3.information = sharp->estimate.information;
+  verification.num_patch_inliers = sharp->estimate.num_inliers;
+  verification.patches = std::move(sharp->patches);
 }
 
 std::string LoopCloser::contradiction(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {
@@ -169,6 +195,13 @@ bool LoopCloser::confirms(const Hypothesis& older, const Hypothesis& newer) cons
   return d.breaks == 0 && discrepancy_chi2(d, variance_factors_) < settings_.confirmation.chi2;
 }
 
+bool LoopCloser::is_strong(const Hypothesis& hypothesis, const LoopDiscrepancy& d) const {
+  if (d.breaks > 0) return false;  // Between segments nothing else would contradict a wrong loop.
+  const LoopRecord& record = records_[hypothesis.record];
+  return record.inliers >= settings_.confirmation.strong_inliers ||
+         (hypothesis.predicted && record.patch_inliers >= settings_.confirmation.strong_patches);
+}
+
 bool LoopCloser::decide(Hypothesis hypothesis) {
   LoopRecord& record = records_[hypothesis.record];
   const LoopDiscrepancy d = discrepancy(hypothesis.S_current_candidate, hypothesis.covariance,
@@ -176,8 +209,7 @@ bool LoopCloser::decide(Hypothesis hypothesis) {
   record.drift_chi2 = discrepancy_chi2(d, {});
   record.reason = contradiction(hypothesis, d);
   if (!record.reason.empty()) return false;
-  // Between segments nothing else would contradict a wrong loop.
-  bool confirmed = d.breaks == 0 && record.inliers >= settings_.confirmation.strong_inliers;
+  bool confirmed = is_strong(hypothesis, d);
   for (Hypothesis& older : hypotheses_) {
     if (older.current + settings_.confirmation.gap < hypothesis.current) continue;
     if (older.current == hypothesis.current || !confirms(older, hypothesis)) continue;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "mapping/map/feature_builder.h"
 #include "mapping/map/keyframe_map.h"
 #include "mapping/matching/loop_detector.h"
+#include "mapping/matching/loop_predictor.h"
 #include "mapping/verification/loop_sharpener.h"
 #include "mapping/verification/loop_verifier.h"
 #include "place/vocabulary.h"
@@ -72,12 +74,19 @@ class LoopCloser {
     Sim3d S_current_candidate;
     Matrix7d covariance;
     std::size_t record = 0;
+    bool predicted = false;  ///< By the poses, before anything was seen.
     bool accepted = false;
   };
   /// A first corrected pose: that of the keyframe before it, with the odometry's step.
   void place(int index);
   /// Whether the candidate stands as the place of the keyframe, for now or for good.
-  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera, const CurrentImage* current);
+  /// `expected`: where it should lie; none: anywhere.
+  bool verify(int index, const LoopCandidate& candidate, const PinholeIntrinsics& camera, const CurrentImage* current,
+              const std::optional<Sim3d>& expected);
+  /// The same of the place that should be in view by the poses, if there is one.
+  bool verify_predicted(int index, const PinholeIntrinsics& camera, const CurrentImage* current);
+  /// Whether one keyframe is enough for it.
+  bool is_strong(const Hypothesis& hypothesis, const LoopDiscrepancy& discrepancy) const;
   /// The similarity from grey levels instead of corners, if they agree on one.
   void sharpen(int candidate, const PinholeIntrinsics& camera, const CurrentImage& current,
                LoopVerification& verification) const;
@@ -97,6 +106,7 @@ class LoopCloser {
 
   std::shared_ptr<const Vocabulary> vocabulary_;
   LoopSettings settings_;
+  LoopSettings predicted_settings_;  ///< For places that the poses predicted.
   KeyframeMap map_;
   LoopDetector detector_;
   std::vector<Sim3d> corrected_;  ///< Poses of the keyframes.

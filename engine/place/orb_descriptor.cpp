@@ -32,15 +32,18 @@ cv::Mat to_8_bit(const Image<Texel>& image) {
       roots[i] = static_cast<std::uint8_t>(std::lround(std::sqrt(255.0 * std::min(i / double{kStepsPerLevel}, 255.0))));
     return roots;
   }();
+  constexpr auto kLast = static_cast<float>(256 * kStepsPerLevel - 1);
   cv::Mat grey(image.height(), image.width(), CV_8U);
+  std::vector<int> steps(image.width());  // Row by row in two loops, of which compilers make vector code of the first.
   for (int y = 0; y < image.height(); ++y) {
     const Texel* texels = image.row(y);
     std::uint8_t* out = grey.ptr<std::uint8_t>(y);
     for (int x = 0; x < image.width(); ++x) {
       const float scaled = texels[x].intensity * kStepsPerLevel + 0.5F;
-      // In this order not-a-numbers become 0.
-      out[x] = kTable[static_cast<int>(std::min(std::max(0.0F, scaled), static_cast<float>(kTable.size() - 1)))];
+      const float positive = scaled > 0 ? scaled : 0;  // Not-a-numbers become 0.
+      steps[x] = static_cast<int>(positive < kLast ? positive : kLast);
     }
+    for (int x = 0; x < image.width(); ++x) out[x] = kTable[steps[x]];
   }
   return grey;
 }

@@ -34,9 +34,39 @@ struct LoopDetectionSettings {
   }
 };
 
+/// Which keyframe should see what again by the poses, and the search for it.
+struct LoopPredictionSettings {
+  // The odometry is off by less than one in a hundred of its way: within this, by less than the radius.
+  double max_way = 15;
+  double min_share = 0.4;
+  double max_angle_deg = 35;
+  double radius = 24;
+  int spacing = 4;
+  // The poses know the scale, too: fewer depths than without them have to confirm it.
+  int min_depth_inliers = 6;
+
+  static constexpr auto fields() {
+    using S = LoopPredictionSettings;
+    return std::tuple{
+        field("max_way", &S::max_way, "Between both visits, or from a closed loop, in median depths, at most; 0: off.",
+              in_range(0, 1e6)),
+        field("min_share", &S::min_share, "Of both views that the other one should see, at least.", in_range(0, 1)),
+        field("max_angle_deg", &S::max_angle_deg, "Between both views, at most.", in_range(0, 180), in_unit("deg")),
+        field("radius", &S::radius, "Of the search around a point's predicted place.", in_range(0.1, 1000),
+              in_unit("px")),
+        field("spacing", &S::spacing, "From a closed loop to the next prediction, at least.", in_range(1, 1000000),
+              in_unit("keyframes")),
+        field("min_depth_inliers", &S::min_depth_inliers,
+              "As loops.min_depth_inliers, of a place that was predicted; the smaller one counts.",
+              in_range(3, 1000000)),
+    };
+  }
+};
+
 /// Matches of two keyframes' corners by their descriptors alone.
 struct LoopMatchingSettings {
-  bool guided = true;
+  // Half of the corners that are seen again fall into another node, and in a node the second nearest tells little.
+  bool guided = false;
   // A word is too narrow (descriptors of one corner differ), a high node saves nothing.
   int levels_above_words = 2;
   int max_distance = 64;
@@ -274,6 +304,7 @@ struct LoopDriftSettings {
 /// When a second keyframe has to show the same.
 struct LoopConfirmationSettings {
   int strong_inliers = 60;
+  int strong_patches = 50;
   int gap = 8;
   int hops = 3;
   double chi2 = 30;
@@ -283,6 +314,8 @@ struct LoopConfirmationSettings {
     return std::tuple{
         field("strong_inliers", &S::strong_inliers, "With so many inliers one keyframe is enough.",
               in_range(0, 1000000)),
+        field("strong_patches", &S::strong_patches,
+              "Likewise with so many patches that agree, where the poses predicted the place.", in_range(0, 1000000)),
         field("gap", &S::gap, "Otherwise a second one must show the same within so many keyframes.",
               in_range(1, 1000000), in_unit("keyframes")),
         field("hops", &S::hops, "Its candidate is linked to that of the first by so many shared windows, at most.",
@@ -343,6 +376,7 @@ struct LoopSettings {
   int correction_lag = 8;
   int max_waiting = 16;
   LoopDetectionSettings detection;
+  LoopPredictionSettings prediction;
   LoopMatchingSettings matching;
   PnpSettings pnp{.min_inliers = 12, .max_iterations = 300};
   LoopSearchSettings search;
@@ -376,6 +410,8 @@ struct LoopSettings {
         field("max_waiting", &S::max_waiting, "Keyframes that may wait for loop closing before the odometry waits.",
               in_range(1, 1000000), in_unit("keyframes"), kExpert),
         field("detection", &S::detection, "Which keyframes may show the same place (place recognition).", kExpert),
+        field("prediction", &S::prediction, "Which place should be seen again by the poses, and the search for it.",
+              kExpert),
         field("matching", &S::matching, "Matches of two keyframes' corners by their descriptors alone.", kExpert),
         field("pnp", &S::pnp, "The camera's pose from matches of which many may be wrong (RANSAC over P3P).", kExpert),
         field("search", &S::search, "The search for points of the local map around where they should appear.", kExpert),

@@ -27,9 +27,14 @@ void add_points_of_neighbours(const KeyframeMap& map, const PinholeIntrinsics& c
   }
 }
 
-std::vector<LocalPoint> local_map(const KeyframeMap& map, const PinholeIntrinsics& camera, int keyframe) {
+std::vector<LocalPoint> own_points(const KeyframeMap& map, const PinholeIntrinsics& camera, int keyframe) {
   std::vector<LocalPoint> points;
   add_points(map, camera, keyframe, SE3d(), points);
+  return points;
+}
+
+std::vector<LocalPoint> local_map(const KeyframeMap& map, const PinholeIntrinsics& camera, int keyframe) {
+  std::vector<LocalPoint> points = own_points(map, camera, keyframe);
   add_points_of_neighbours(map, camera, keyframe, points);
   return points;
 }

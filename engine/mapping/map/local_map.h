@@ -22,6 +22,9 @@ struct LocalPoint {
 /// A corner with depth in its own keyframe's frame.
 UncertainPoint own_point(const KeyframeMap& map, const PinholeIntrinsics& camera, int keyframe, int feature);
 
+/// The points of a keyframe.
+std::vector<LocalPoint> own_points(const KeyframeMap& map, const PinholeIntrinsics& camera, int keyframe);
+
 /// Adds the points of all neighbours of `keyframe`, in its frame.
 void add_points_of_neighbours(const KeyframeMap& map, const PinholeIntrinsics& camera, int keyframe,
                               std::vector<LocalPoint>& points);

@@ -68,15 +68,18 @@ TEST(MatchDescriptorsTest, FindsEachCornerAgainGuidedOrNot) {
 TEST(MatchDescriptorsTest, GuidedComparesOnlyTheSameNode) {
   Views views = two_views(50);
   for (int i = 0; i < 20; ++i) views.a[i].node = 1000 + i;
-  EXPECT_EQ(match_descriptors(views.a, views.b).size(), 30u);
-  LoopMatchingSettings unguided;
-  unguided.guided = false;
-  EXPECT_EQ(match_descriptors(views.a, views.b, unguided).size(), 50u);
+  LoopMatchingSettings settings;
+  settings.guided = true;
+  EXPECT_EQ(match_descriptors(views.a, views.b, settings).size(), 30u);
+  settings.guided = false;
+  EXPECT_EQ(match_descriptors(views.a, views.b, settings).size(), 50u);
 }
 
 TEST(MatchDescriptorsTest, ManyOrOneNodeGiveTheSame) {
   const Views few = two_views(100, 0.1f, 1), many = two_views(100, 0.1f, 1000);
-  EXPECT_EQ(match_descriptors(few.a, few.b), match_descriptors(many.a, many.b));
+  LoopMatchingSettings settings;
+  settings.guided = true;
+  EXPECT_EQ(match_descriptors(few.a, few.b, settings), match_descriptors(many.a, many.b, settings));
 }
 
 TEST(MatchDescriptorsTest, TooDifferentIsNoMatch) {

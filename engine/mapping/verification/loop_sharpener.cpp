@@ -81,16 +81,22 @@ void lend_depth(const LoopMatch& match, double max_shift_px, Sim3Correspondence&
   c.idepth_stddev = match.idepth_stddev;
 }
 
-std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
-                                            const CurrentImage& current, const LoopVerification& loop,
-                                            const LoopSharpeningSettings& settings) {
+/// Points that were found: what the estimate takes, and which they are.
+struct FoundPoints {
+  std::vector<Sim3Correspondence> correspondences;
+  std::vector<LoopPatch> patches;
+};
+
+FoundPoints find_points(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
+                        const CurrentImage& current, const LoopVerification& loop,
+                        const LoopSharpeningSettings& settings) {
   const MatchOfPoint matches = matches_with_depth(loop);
   const auto cell = [&](const Eigen::Vector2d& pixel) {
     const Eigen::Array2d place = pixel.array() / Eigen::Array2d(camera.width, camera.height);
     const Eigen::Array2i c = (place * settings.cells).cast<int>().max(0).min(settings.cells - 1);
     return c.y() * settings.cells + c.x();
   };
-  std::vector<Sim3Correspondence> found;
+  FoundPoints found;
   for (const LocalPoint& point : local_map(map, camera, candidate)) {
     const MapFeature& feature = map[point.keyframe].features[point.feature];
     std::optional<Sim3Correspondence> c =
@@ -99,22 +105,28 @@ std::vector<Sim3Correspondence> find_points(const KeyframeMap& map, int candidat
     const auto match = matches.find({point.keyframe, point.feature});
     if (match != matches.end()) lend_depth(*match->second, settings.max_depth_shift, *c);
     c->group = cell(c->pixel);
-    found.push_back(*c);
+    found.correspondences.push_back(*c);
+    found.patches.push_back({point.keyframe, point.feature, c->pixel});
   }
   return found;
 }
 
 }  // namespace
 
-std::optional<Sim3Estimate> sharpen_loop(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
-                                         const CurrentImage& current, const LoopVerification& loop,
-                                         const LoopSharpeningSettings& settings) {
-  const std::vector<Sim3Correspondence> found = find_points(map, candidate, camera, current, loop, settings);
-  Sim3Estimate estimate = estimate_sim3(found, camera, loop.sim3.S_current_candidate, settings.similarity);
-  const double enough = std::max<double>(settings.min_inliers, settings.min_inlier_share * found.size());
+std::optional<SharpLoop> sharpen_loop(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
+                                      const CurrentImage& current, const LoopVerification& loop,
+                                      const LoopSharpeningSettings& settings) {
+  const FoundPoints found = find_points(map, candidate, camera, current, loop, settings);
+  SharpLoop sharp;
+  sharp.estimate = estimate_sim3(found.correspondences, camera, loop.sim3.S_current_candidate, settings.similarity);
+  const Sim3Estimate& estimate = sharp.estimate;
+  const double enough = std::max<double>(settings.min_inliers, settings.min_inlier_share * found.patches.size());
   const bool stands = estimate.status == Sim3Status::kOk && estimate.scale_determined && estimate.num_inliers >= enough;
   if (!stands) return std::nullopt;
-  return estimate;
+  for (std::size_t i = 0; i < found.patches.size(); ++i) {
+    if (estimate.is_inlier[i]) sharp.patches.push_back(found.patches[i]);
+  }
+  return sharp;
 }
 
 }  // namespace ldso

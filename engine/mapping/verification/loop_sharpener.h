@@ -5,6 +5,7 @@
 // the window, are aligned with the current image, and the similarity is estimated anew from where they are found.
 
 #include <optional>
+#include <vector>
 
 #include "image/frame.h"
 #include "ldso/calibration.h"
@@ -23,10 +24,16 @@ struct CurrentImage {
   ReadoutMotion readout = ReadoutMotion::Zero();
 };
 
-/// S_current_candidate from the patches of the candidate's local map in the current image.
-/// `loop`: what verify_loop() accepted. Nothing if too few patches are found or agree.
-std::optional<Sim3Estimate> sharpen_loop(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
-                                         const CurrentImage& current, const LoopVerification& loop,
-                                         const LoopSharpeningSettings& settings = {});
+/// S_current_candidate from patches, and those that agree on it.
+struct SharpLoop {
+  Sim3Estimate estimate;
+  std::vector<LoopPatch> patches;
+};
+
+/// From the patches of the candidate's local map in the current image. `loop`: what find_similarity() found. Nothing if
+/// too few patches are found or agree.
+std::optional<SharpLoop> sharpen_loop(const KeyframeMap& map, int candidate, const PinholeIntrinsics& camera,
+                                      const CurrentImage& current, const LoopVerification& loop,
+                                      const LoopSharpeningSettings& settings = {});
 
 }  // namespace ldso

@@ -91,7 +91,7 @@ class LoopSharpenerTest : public testing::Test {
     return loop;
   }
 
-  std::optional<Sim3Estimate> sharpen(const LoopVerification& loop) const {
+  std::optional<SharpLoop> sharpen(const LoopVerification& loop) const {
     return sharpen_loop(map_, kCandidate, camera(), {current_image_}, loop);
   }
 };
@@ -103,8 +103,9 @@ Sim3d off_by_a_pixel() {
 }
 
 TEST_F(LoopSharpenerTest, FindsTheSimilarityToFractionsOfAPixel) {
-  const auto sharp = sharpen(loop(off_by_a_pixel() * truth()));
-  ASSERT_TRUE(sharp);
+  const auto found = sharpen(loop(off_by_a_pixel() * truth()));
+  ASSERT_TRUE(found);
+  const Sim3Estimate* sharp = &found->estimate;
   const Sim3d::Tangent error = (truth() * sharp->S_current_candidate.inverse()).log();
   EXPECT_LT(error.head<3>().norm(), 0.003);     // of 6.5: a pixel is 0.025
   EXPECT_LT(error.segment<3>(3).norm(), 5e-4);  // a pixel is 4e-3
@@ -114,6 +115,19 @@ TEST_F(LoopSharpenerTest, FindsTheSimilarityToFractionsOfAPixel) {
   // Seven where the covariance is right.
   EXPECT_LT(error.dot(sharp->information * error), 40);
   EXPECT_LT(sim3_uncertainty(sharp->information)->rotation_rad, 5e-4);
+}
+
+TEST_F(LoopSharpenerTest, SaysWhereThePatchesLie) {
+  const auto found = sharpen(loop(off_by_a_pixel() * truth()));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(static_cast<int>(found->patches.size()), found->estimate.num_inliers);
+  for (const LoopPatch& patch : found->patches) {
+    const Feature& f = map_[patch.keyframe].features[patch.feature].feature;
+    const SE3d T_current_host = T_world_camera_[kCurrent].inverse() * T_world_camera_[patch.keyframe];
+    const double depth = plane_.depth(camera(), T_world_camera_[patch.keyframe], Eigen::Vector2d(f.u, f.v));
+    const Eigen::Vector3d p = T_current_host * (depth * viewing_ray(camera(), Eigen::Vector2d(f.u, f.v))).eval();
+    EXPECT_LT((project(camera(), p) - patch.pixel).norm(), 0.7);
+  }
 }
 
 TEST_F(LoopSharpenerTest, LeavesItWhereNothingLooksLikeThat) {

@@ -123,6 +123,17 @@ Predictions predict(const Scene& scene, const std::vector<LocalPoint>& points, c
   return result;
 }
 
+/// Matches of the local map's points around where they are expected.
+std::vector<LoopMatch> match_around(const Scene& scene, const std::vector<LocalPoint>& points, const Sim3d& expected) {
+  const Predictions predictions = predict(scene, points, expected, scene.settings.prediction.radius);
+  std::vector<LoopMatch> matches;
+  for (const FeatureMatch& m : match_by_projection(predictions.points, scene.seen, scene.settings.search)) {
+    const LocalPoint& point = points[predictions.index[m.a]];
+    matches.push_back({.keyframe = point.keyframe, .feature = point.feature, .current = m.b});
+  }
+  return matches;
+}
+
 /// Many corners of the current keyframe never became points of its own because points of its neighbours were there
 /// already: these lend them their depth.
 void borrow_depths(Scene& scene) {
@@ -175,27 +186,27 @@ bool refine(const Scene& scene, const std::vector<LocalPoint>& points, double ra
   return result.sim3.status == Sim3Status::kOk;
 }
 
-/// In the current keyframe.
+/// Of corners and patches, in the current keyframe.
 std::vector<Eigen::Vector2d> inlier_pixels(const Scene& scene, const LoopVerification& result) {
   std::vector<Eigen::Vector2d> pixels;
   for (const LoopMatch& match : result.matches) {
     const Feature& feature = scene.seen[match.current].feature;
     if (match.inlier) pixels.emplace_back(feature.u, feature.v);
   }
+  for (const LoopPatch& patch : result.patches) pixels.push_back(patch.pixel);
   return pixels;
 }
 
 /// How much of what the candidate saw is there: its own points that should be in view, and those of them where a corner
-/// was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
-void count_seen(const Scene& scene, const std::vector<LocalPoint>& points, const std::vector<Eigen::Vector2d>& found,
-                LoopVerification& result) {
+/// or its patch was found. (Its neighbours described the same corners again: counting theirs too would count twice.)
+void count_seen(const Scene& scene, const std::vector<Eigen::Vector2d>& found, LoopVerification& result) {
   const double radius = scene.settings.search.final_radius;
+  const std::vector<LocalPoint> points = own_points(scene.map, scene.camera, scene.candidate);
   const Predictions predictions = predict(scene, points, result.sim3.S_current_candidate, radius);
-  for (std::size_t i = 0; i < predictions.points.size(); ++i) {
-    if (points[predictions.index[i]].keyframe != scene.candidate) continue;
+  for (const PredictedPoint& point : predictions.points) {
     ++result.num_visible;
     result.num_seen += std::any_of(found.begin(), found.end(), [&](const Eigen::Vector2d& pixel) {
-      return (pixel.cast<float>() - predictions.points[i].pixel).squaredNorm() < radius * radius;
+      return (pixel.cast<float>() - point.pixel).squaredNorm() < radius * radius;
     });
   }
 }
@@ -212,6 +223,19 @@ std::string lack_of_support(const LoopSettings& s, const LoopVerification& resul
     return refusal("inliers with depth on both sides", sim3.num_depth_inliers, "at least", s.min_depth_inliers);
   }
   return {};
+}
+
+/// From the first similarity to one from all of the local map; the result's reason says why there is none.
+void refine_in_steps(const Scene& scene, const std::vector<LocalPoint>& points, LoopVerification& result) {
+  const LoopSettings& settings = scene.settings;
+  const std::array<std::pair<double, SimilaritySettings>, 2> steps = {
+      {{settings.search.first_radius, rough(settings.similarity)},
+       {settings.search.final_radius, settings.similarity}}};
+  for (const auto& [radius, sim3] : steps) {
+    const bool found = refine(scene, points, radius, sim3, result);
+    result.reason = found ? lack_of_support(settings, result) : "no similarity explains the matches of the local map";
+    if (!result.reason.empty()) return;
+  }
 }
 
 /// Why the similarity must not be believed though enough matches agree on it; empty if it may.
@@ -252,11 +276,12 @@ std::string doubt(const Scene& scene, const std::vector<Eigen::Vector2d>& pixels
 
 }  // namespace
 
-LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
-                             const LoopSettings& settings) {
+LoopVerification find_similarity(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                                 const LoopSettings& settings, const std::optional<Sim3d>& expected) {
   Scene scene{map, current, candidate, camera, settings, map[current].features};
+  const std::vector<LocalPoint> points = local_map(map, camera, candidate);
   LoopVerification result;
-  result.matches = match_blindly(scene);
+  result.matches = expected ? match_around(scene, points, *expected) : match_blindly(scene);
   result.num_descriptor_matches = static_cast<int>(result.matches.size());
   const int enough = settings.verification.min_matches;
   if (result.num_descriptor_matches < enough) {
@@ -276,19 +301,23 @@ LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate,
     return result;
   }
   result.sim3.S_current_candidate = *initial;
-  const std::vector<LocalPoint> points = local_map(map, camera, candidate);
-  const std::array<std::pair<double, SimilaritySettings>, 2> steps = {
-      {{settings.search.first_radius, rough(settings.similarity)},
-       {settings.search.final_radius, settings.similarity}}};
-  for (const auto& [radius, sim3] : steps) {
-    const bool found = refine(scene, points, radius, sim3, result);
-    result.reason = found ? lack_of_support(settings, result) : "no similarity explains the matches of the local map";
-    if (!result.reason.empty()) return result;
-  }
+  refine_in_steps(scene, points, result);
+  return result;
+}
+
+void judge_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                const LoopSettings& settings, LoopVerification& result) {
+  const Scene scene{map, current, candidate, camera, settings, map[current].features};
   const std::vector<Eigen::Vector2d> pixels = inlier_pixels(scene, result);
-  count_seen(scene, points, pixels, result);
+  count_seen(scene, pixels, result);
   result.reason = doubt(scene, pixels, result);
   result.accepted = result.reason.empty();
+}
+
+LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                             const LoopSettings& settings, const std::optional<Sim3d>& expected) {
+  LoopVerification result = find_similarity(map, current, candidate, camera, settings, expected);
+  if (result.reason.empty()) judge_loop(map, current, candidate, camera, settings, result);
   return result;
 }
 

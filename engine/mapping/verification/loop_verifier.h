@@ -3,6 +3,7 @@
 // Do two keyframes show the same place, and how do they lie to each other? Geometry decides: matches by descriptors,
 // PnP, more matches of the candidate's local map, Sim(3) (LDSO III-C).
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ struct LoopMatch {
   float idepth = 0, idepth_stddev = 0;  ///< Of the current feature, its own or a neighbour's; 0: unknown.
 };
 
+/// A point of the candidate's local map whose grey levels were found in the current image.
+struct LoopPatch {
+  int keyframe = 0, feature = 0;  ///< As of a match.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
 struct LoopVerification {
   bool accepted = false;
   std::string reason;  ///< Why not.
@@ -35,12 +42,23 @@ struct LoopVerification {
   double covered_cells = 0;
   int num_patch_inliers = 0;  ///< Of a sharpened loop.
   std::vector<LoopMatch> matches;
-  Sim3Estimate sim3;  ///< S_current_candidate.
+  std::vector<LoopPatch> patches;  ///< Those that agree on a sharpened similarity.
+  Sim3Estimate sim3;               ///< S_current_candidate.
   Sim3Uncertainty uncertainty;
 };
 
-/// `camera`: of the rectified images. Never throws for what it finds; the result says why there is no loop.
+/// The similarity that matches of both keyframes agree on; the reason says why there is none. `expected`: where the
+/// candidate should lie, which matches are searched around; none: anywhere. `camera`: of the rectified images. Never
+/// throws for what it finds.
+LoopVerification find_similarity(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                                 const LoopSettings& settings = {}, const std::optional<Sim3d>& expected = {});
+
+/// Whether the similarity that was found may be believed: accepted, or the reason why not.
+void judge_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
+                const LoopSettings& settings, LoopVerification& result);
+
+/// Both, one after the other.
 LoopVerification verify_loop(const KeyframeMap& map, int current, int candidate, const PinholeIntrinsics& camera,
-                             const LoopSettings& settings = {});
+                             const LoopSettings& settings = {}, const std::optional<Sim3d>& expected = {});
 
 }  // namespace ldso

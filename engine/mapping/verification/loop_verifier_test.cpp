@@ -359,6 +359,50 @@ TEST(LoopVerifierTest, ConstraintsThatAreNotNumbers) {
   }
 }
 
+/// A pattern that repeats: over the whole image nothing is unambiguous, around an expectation it is.
+TEST(LoopVerifierTest, WhatLooksTheSameIsToldByWhereItIsExpected) {
+  constexpr int kLooks = 8;
+  std::mt19937_64 random(3);
+  std::vector<OrbDescriptor> looks;
+  for (int i = 0; i < kLooks; ++i) looks.push_back(place_test::random_descriptor(random));
+  Scene scene;
+  for (std::size_t i = 0; i < scene.landmarks.size(); ++i) scene.landmarks[i].descriptor = looks[i % kLooks];
+  scene.look(1);
+  expect_refused(scene.verify(), "matches");
+  Sim3d::Tangent x = Sim3d::Tangent::Zero();
+  x[4] = 0.01;  // 4 px
+  LoopSettings s = settings();
+  s.prediction.radius = 12;
+  const LoopVerification v = verify_loop(scene.map(), Scene::kCurrent, Scene::kCandidate, loop_test::camera(), s,
+                                         Sim3d::exp(x) * scene.truth());
+  ASSERT_TRUE(v.accepted) << v.reason;
+  EXPECT_LT(scene.chi2(v), 35);
+}
+
+TEST(LoopVerifierTest, NothingIsFoundWhereTheExpectationIsFarOff) {
+  const Scene scene;
+  Sim3d::Tangent x = Sim3d::Tangent::Zero();
+  x[4] = 0.3;  // 120 px
+  expect_refused(verify_loop(scene.map(), Scene::kCurrent, Scene::kCandidate, loop_test::camera(), settings(),
+                             Sim3d::exp(x) * scene.truth()));
+}
+
+TEST(LoopVerifierTest, PatchesCountAsSeen) {
+  const Scene scene;
+  LoopVerification v =
+      find_similarity(scene.map(), Scene::kCurrent, Scene::kCandidate, loop_test::camera(), settings());
+  ASSERT_TRUE(v.reason.empty()) << v.reason;
+  for (LoopMatch& match : v.matches) match.inlier = false;
+  const LoopVerification found = v;
+  judge_loop(scene.map(), Scene::kCurrent, Scene::kCandidate, loop_test::camera(), settings(), v);
+  expect_refused(v, "share of the image");
+  v = found;
+  for (const LoopMatch& match : v.matches)
+    v.patches.push_back({match.keyframe, match.feature, match.pixel.cast<double>()});
+  judge_loop(scene.map(), Scene::kCurrent, Scene::kCandidate, loop_test::camera(), settings(), v);
+  EXPECT_TRUE(v.accepted) << v.reason;
+}
+
 TEST(LoopVerifierTest, TheSameTwice) {
   const Scene scene;
   const LoopVerification a = scene.verify(), b = scene.verify();
