@@ -43,7 +43,8 @@ Conversation converse(std::string_view sent, const std::string& token) {
   Conversation conversation;
   LiveMap map;
   map.start({});
-  ServerContext context{{}, {true, token}, map, [&](protocol::Command) { ++conversation.commands; }};
+  const ServerOptions options;
+  ServerContext context{options, {true, token}, map, [&](protocol::Command) { ++conversation.commands; }};
   {
     asio::io_context io{1};
     asio::ip::tcp::socket socket(io);

@@ -8,8 +8,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/test_tools.sh"
 # Which thread allocates from which of the C library's arenas is chance, and moves the peak by up to 8 MB: one arena.
 export MALLOC_ARENA_MAX=1
 
-repeat_sequence "$SEQUENCE" "$WORK/short" 4
-repeat_sequence "$SEQUENCE" "$WORK/long" 20
+# Both are longer than what is kept of the first frames until calibration and start have been judged (575 frames).
+repeat_sequence "$SEQUENCE" "$WORK/short" 10
+repeat_sequence "$SEQUENCE" "$WORK/long" 26
 for length in short long; do
   expect_exit 0 run "$WORK/$length" -o "$WORK/out_$length" --quiet
 done

@@ -23,27 +23,29 @@ KeyframeConstraint reversed(std::int64_t keyframe_id, const KeyframeConstraint& 
 /// Keyframes that left the window of a pass.
 class PassKeyframes {
  public:
-  explicit PassKeyframes(const Window& window) {
-    for (const auto& keyframe : window.keyframes) given_.insert(keyframe->frame.get());
+  PassKeyframes(const Window& window, PackedFrames frames) : frames_(frames) {
+    for (const auto& keyframe : window.keyframes) given_.insert(keyframe->frame);
   }
 
   /// Where a frame that was a keyframe before has become one again, the new one counts: frames were tracked with that.
   void add(std::vector<FinishedKeyframe> finished) {
     for (FinishedKeyframe& keyframe : finished) {
-      const bool is_given = given_.contains(keyframe.frame.get());
+      const bool is_given = given_.contains(keyframe.frame);
       const auto [it, is_first] = by_id_.try_emplace(keyframe.update.frame_id);
-      if (is_first || !is_given) it->second = std::move(keyframe);
+      if (!is_first && is_given) continue;
+      pack(frames_, keyframe);
+      it->second = {std::move(keyframe), is_given, false};
     }
   }
 
-  const SE3d& T_world_camera(std::int64_t id) const { return by_id_.at(id).update.T_world_camera; }
+  const SE3d& T_world_camera(std::int64_t id) const { return by_id_.at(id).finished.update.T_world_camera; }
 
   /// A keyframe that the pass began with was tracked like other frames: that is where it is. Whether it is one.
   bool move_given(std::int64_t id, const SE3d& T_world_camera) {
     const auto it = by_id_.find(id);
-    if (it == by_id_.end() || !given_.contains(it->second.frame.get())) return false;
-    it->second.update.T_world_camera = T_world_camera;
-    moved_.insert(id);
+    if (it == by_id_.end() || !it->second.is_given) return false;
+    it->second.finished.update.T_world_camera = T_world_camera;
+    it->second.is_moved = true;
     return true;
   }
 
@@ -52,37 +54,43 @@ class PassKeyframes {
   std::vector<FinishedKeyframe> take_older(std::int64_t turn) {
     const auto end = by_id_.lower_bound(turn);
     for (auto& [id, keyframe] : by_id_) {
-      for (KeyframeConstraint& constraint : keyframe.update.constraints) {
+      for (KeyframeConstraint& constraint : keyframe.finished.update.constraints) {
         const auto other = by_id_.find(constraint.keyframe_id);
         if (other == by_id_.end()) continue;
-        if (moved_.contains(id) || moved_.contains(other->first)) {
-          constraint.T_this_other = keyframe.update.T_world_camera.inverse() * other->second.update.T_world_camera;
+        if (keyframe.is_moved || other->second.is_moved) {
+          constraint.T_this_other = T_world_camera(id).inverse() * T_world_camera(other->first);
         }
-        if (id >= turn && other->first < turn) other->second.update.constraints.push_back(reversed(id, constraint));
+        if (id >= turn && other->first < turn) {
+          other->second.finished.update.constraints.push_back(reversed(id, constraint));
+        }
       }
     }
     std::vector<FinishedKeyframe> older;
     for (auto& [id, keyframe] : std::views::reverse(std::ranges::subrange(by_id_.begin(), end))) {
-      older.push_back(std::move(keyframe));
+      older.push_back(std::move(keyframe.finished));
     }
     return older;
   }
 
  private:
-  std::set<const PreparedFrame*> given_;  ///< Images of the keyframes that the pass began with.
-  std::set<std::int64_t> moved_;          ///< Of those, the ones that have been tracked.
-  std::map<std::int64_t, FinishedKeyframe> by_id_;
+  struct PassKeyframe {
+    FinishedKeyframe finished;
+    bool is_given = false;  ///< The pass began with it.
+    bool is_moved = false;  ///< It has been tracked since.
+  };
+  PackedFrames frames_;
+  std::set<std::shared_ptr<const PreparedFrame>> given_;  ///< Images of the keyframes that the pass began with.
+  std::map<std::int64_t, PassKeyframe> by_id_;
 };
 
 /// Tracks the frames until the camera is lost; their records, newest first.
-std::vector<FrameRecord> track_back(Odometry& back, std::span<const PackedFrame> frames,
-                                    const FramePreprocessor& preprocessor, const std::stop_token& stop,
-                                    PassKeyframes& keyframes) {
+std::vector<FrameRecord> track_back(Odometry& back, PackedFrames frames, const FramePreprocessor& preprocessor,
+                                    const std::stop_token& stop, PassKeyframes& keyframes) {
   std::vector<FrameRecord> records;
   int lost = 0;
-  for (const PackedFrame& packed : std::views::reverse(frames)) {
+  for (const auto& packed : std::views::reverse(frames)) {
     if (stop.stop_requested()) break;
-    OdometryOutput output = back.process(std::make_shared<const PreparedFrame>(preprocessor.process(packed.unpack())));
+    OdometryOutput output = back.process(std::make_shared<const PreparedFrame>(preprocessor.process(packed->unpack())));
     keyframes.add(std::move(output.finished));
     if (back.restarts() > 0) break;
     lost = output.frame.state == TrackingState::kTracked ? 0 : lost + 1;
@@ -95,10 +103,10 @@ std::vector<FrameRecord> track_back(Odometry& back, std::span<const PackedFrame>
 
 }  // namespace
 
-BackwardPass pass_back(Odometry& back, std::span<const PackedFrame> frames, const FramePreprocessor& preprocessor,
+BackwardPass pass_back(Odometry& back, PackedFrames frames, const FramePreprocessor& preprocessor,
                        const std::stop_token& stop) {
   const std::int64_t turn = back.window().keyframes.back()->id();
-  PassKeyframes keyframes(back.window());
+  PassKeyframes keyframes(back.window(), frames);
   std::vector<FrameRecord> records = track_back(back, frames, preprocessor, stop, keyframes);
   BackwardPass pass;
   pass.T_world_turn = keyframes.T_world_camera(turn);

@@ -6,14 +6,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "image/frame_preprocessor.h"
-#include "image/packed_frame.h"
 #include "ldso/records.h"
 #include "odometry/odometry.h"
+#include "slam/packed_keyframe.h"
 
 namespace ldso {
 
@@ -24,15 +23,16 @@ struct PosedFrame {
 };
 
 struct BackwardPass {
-  std::vector<PosedFrame> frames;           ///< Those that were tracked, newest first.
-  std::vector<FinishedKeyframe> keyframes;  ///< New ones and those that it began with, newest first.
-  SE3d T_world_turn;                        ///< In the end, of the newest keyframe that it began with.
+  std::vector<PosedFrame> frames;  ///< Those that were tracked, newest first.
+  /// New ones and those that it began with, newest first; packed if they are of the frames that were passed.
+  std::vector<FinishedKeyframe> keyframes;
+  SE3d T_world_turn;  ///< In the end, of the newest keyframe that it began with.
 };
 
 /// `back`: turned back at the frame after the last of `frames`, which are in the order of time. All that comes out is
 /// older than the newest keyframe of the window that it begins with, the one at which it turns. The pass ends where the
 /// camera is lost.
-BackwardPass pass_back(Odometry& back, std::span<const PackedFrame> frames, const FramePreprocessor& preprocessor,
+BackwardPass pass_back(Odometry& back, PackedFrames frames, const FramePreprocessor& preprocessor,
                        const std::stop_token& stop);
 
 }  // namespace ldso

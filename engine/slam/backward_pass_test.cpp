@@ -28,7 +28,7 @@ class BackwardPassTest : public testing::Test {
   void SetUp() override {
     for (int i = 0; i < kFrames; ++i) {
       const RawFrame raw = scene_frame_at(i);
-      frames_.emplace_back(raw);
+      frames_.push_back(std::make_shared<const PackedFrame>(raw));
       forward_.process(std::make_shared<const PreparedFrame>(preprocessor_.process(raw)));
     }
     frames_.pop_back();
@@ -43,7 +43,7 @@ class BackwardPassTest : public testing::Test {
   ThreadPool pool_{1};
   FramePreprocessor preprocessor_{scene_calibration(), PhotometrySettings{}};
   Odometry forward_{preprocessor_.output_camera(), 0, false, Settings{}, pool_};
-  std::vector<PackedFrame> frames_;
+  std::vector<std::shared_ptr<const PackedFrame>> frames_;
   std::int64_t turn_ = 0;
 };
 
@@ -76,6 +76,7 @@ TEST_F(BackwardPassTest, RecordsBelongToItsKeyframesOrToTheOneWhereItTurns) {
 TEST_F(BackwardPassTest, KeyframesAreOlderThanTheTurnAndLinkedToIt) {
   const BackwardPass pass = this->pass();
   ASSERT_FALSE(pass.keyframes.empty());
+  for (const FinishedKeyframe& keyframe : pass.keyframes) EXPECT_TRUE(keyframe.packed && !keyframe.frame);
   int links = 0, with_points = 0;
   for (const FinishedKeyframe& keyframe : pass.keyframes) {
     EXPECT_LT(keyframe.update.frame_id, turn_);
@@ -105,7 +106,7 @@ TEST_F(BackwardPassTest, EndsWhereTheCameraIsLost) {
     black.id = i;
     black.timestamp = 0.1 * i;
     black.grey = Image<float>(kSceneWidth, kSceneHeight, 1.0f);
-    frames_[i] = PackedFrame(black);
+    frames_[i] = std::make_shared<const PackedFrame>(black);
   }
   const BackwardPass pass = this->pass();
   ASSERT_FALSE(pass.frames.empty());

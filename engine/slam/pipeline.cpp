@@ -105,7 +105,9 @@ void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
   if (observer_) observer_->on_keyframe(keyframe.update, keyframe.camera);
   result_.keyframes.push_back(loops_ ? keyframe.update : std::move(keyframe.update));
   result_.keyframes.back().constraints.clear();
-  if (loops_) loops_->add(std::move(keyframe));
+  if (!loops_) return;
+  unpack(preprocessor_, keyframe);
+  loops_->add(std::move(keyframe));
 }
 
 void Pipeline::close_loops() {

@@ -38,7 +38,7 @@ RevisedStart StartRevision::add(const Odometry& odometry, const std::shared_ptr<
     records_.clear();
     return revised;
   }
-  if (stage_ == Stage::kIdle || stage_ == Stage::kCollecting) collect(raw, output);
+  collect(raw, output);
   if (stage_ == Stage::kIdle) return revised;
   hold(output);
   if (!odometry.window().keyframes.empty()) ++frames_;
@@ -65,24 +65,25 @@ RevisedStart StartRevision::change_map(const Odometry& odometry, OdometryOutput&
 }
 
 void StartRevision::collect(const std::shared_ptr<const RawFrame>& raw, const OdometryOutput& output) {
-  if (raw) {
-    images_.emplace_back(*raw);
-    records_.push_back(output.frame);
-  }
+  const bool is_before_turn = stage_ == Stage::kIdle || stage_ == Stage::kCollecting;
+  if (raw && (is_before_turn || output.frame.is_keyframe)) images_.push_back(std::make_shared<const PackedFrame>(*raw));
+  if (!is_before_turn) return;
+  records_.push_back(output.frame);
   for (const FrameRecord& late : output.late) {
     const auto same = std::find_if(records_.rbegin(), records_.rend(),
                                    [&](const FrameRecord& record) { return record.frame_id == late.frame_id; });
     if (same != records_.rend()) *same = late;
   }
   const auto most = static_cast<std::size_t>(frames_) + kMostWaiting;
-  if (images_.size() > most) {
-    images_.erase(images_.begin());
-    records_.erase(records_.begin());
-  }
+  if (images_.size() > most) images_.erase(images_.begin());
+  if (records_.size() > most) records_.erase(records_.begin());
 }
 
 void StartRevision::hold(OdometryOutput& output) {
-  std::move(output.finished.begin(), output.finished.end(), std::back_inserter(held_));
+  for (FinishedKeyframe& keyframe : output.finished) {
+    pack(images_, keyframe);
+    held_.push_back(std::move(keyframe));
+  }
   output.finished.clear();
 }
 
@@ -92,22 +93,22 @@ void StartRevision::turn(const Odometry& odometry) {
   turn_ = odometry.window().keyframes.back()->id();
   segment_ = restarts_;
   is_accepted_ = false;
-  images_.pop_back();  // The frame at which it turns back.
+  passed_ = images_.size() - 1;  // Without the frame at which it turns back.
   stage_ = Stage::kTurned;
 }
 
 void StartRevision::begin_pass() {
   stage_ = Stage::kPassing;
   frames_ = 0;
-  thread_ = std::jthread([this](const std::stop_token& stop) {
+  const auto end = images_.begin() + static_cast<std::ptrdiff_t>(passed_);
+  thread_ = std::jthread([this, frames = std::vector(images_.begin(), end)](const std::stop_token& stop) {
     const auto start = std::chrono::steady_clock::now();
     try {
-      pass_ = pass_back(*back_, images_, preprocessor_, stop);
+      pass_ = pass_back(*back_, frames, preprocessor_, stop);
     } catch (const std::exception& failure) {
       failure_ = failure.what();
     }
     back_.reset();
-    images_ = {};
     milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   });
 }
@@ -119,6 +120,7 @@ RevisedStart StartRevision::decide(const Odometry& odometry) {
   BackwardPass pass = std::exchange(pass_, {});
   const Judgement judgement = judge(pass);
   records_.clear();
+  images_.clear();
   RevisedStart revised = judgement.is_better ? accept(odometry, std::move(pass)) : release();
   revised.verdict = judgement.is_better ? "the mature map gives the first " + std::to_string(revised.frames.size()) +
                                               " frames new poses"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "image/frame_preprocessor.h"
-#include "image/packed_frame.h"
 #include "ldso/settings.h"
 #include "odometry/odometry.h"
 #include "slam/backward_pass.h"
@@ -65,6 +64,7 @@ class StartRevision {
   /// The odometry has left the map that was kept track of.
   RevisedStart change_map(const Odometry& odometry, OdometryOutput& output);
   void collect(const std::shared_ptr<const RawFrame>& raw, const OdometryOutput& output);
+  /// Takes the keyframes out of `output`, and their pyramids out of them.
   void hold(OdometryOutput& output);
   /// Makes all ready for the pass; not if the newest frame is not tracked.
   void turn(const Odometry& odometry);
@@ -86,12 +86,14 @@ class StartRevision {
   const FramePreprocessor& preprocessor_;
   Stage stage_;
   bool is_postponed_ = false;
-  int restarts_ = 0;                    ///< Of the odometry, when the map began.
-  std::int64_t frames_ = 0;             ///< Since the map began, or since the pass did.
-  std::int64_t turn_ = -1;              ///< Newest keyframe of the window with which the pass began.
-  bool is_accepted_ = false;            ///< The pass stands.
-  int segment_ = 0;                     ///< The map that it passes.
-  std::vector<PackedFrame> images_;     ///< Oldest first.
+  int restarts_ = 0;          ///< Of the odometry, when the map began.
+  std::int64_t frames_ = 0;   ///< Since the map began, or since the pass did.
+  std::int64_t turn_ = -1;    ///< Newest keyframe of the window with which the pass began.
+  bool is_accepted_ = false;  ///< The pass stands.
+  int segment_ = 0;           ///< The map that it passes.
+  /// Oldest first; after the turn of keyframes alone.
+  std::vector<std::shared_ptr<const PackedFrame>> images_;
+  std::size_t passed_ = 0;              ///< Of `images_`, the first ones, that the pass takes.
   std::vector<FrameRecord> records_;    ///< Of the frames that are or were in `images_`, as they are without a pass.
   std::vector<FinishedKeyframe> held_;  ///< They left the window.
   std::unique_ptr<Odometry> back_;      ///< Of the pass.

@@ -17,7 +17,7 @@ Window small_window() {
   window.width = 64;
   window.camera << 50, 51, 31, 23;
   window.append(frame(3), SE3d(), {}).points.emplace_back();
-  window.append(frame(8), SE3d(Eigen::Quaterniond::Identity(), Eigen::Vector3d(1, 0, 0)), {0.1, 2}).points.emplace_back();
+  window.append(frame(8), SE3d(SO3d(), Eigen::Vector3d(1, 0, 0)), {0.1, 2}).points.emplace_back();
   PointResidual back;
   back.target = window.keyframes[0].get();
   window.keyframes[1]->points[0].residuals.push_back(back);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/frame.h"
+#include "image/packed_frame.h"
 #include "ldso/records.h"
 #include "odometry/state/window.h"
 
@@ -20,6 +21,7 @@ struct FinishedKeyframe {
   PinholeIntrinsics camera;                    ///< As estimated when it left: its points' pixels are those of this one.
   std::vector<Eigen::Vector2f> corners;        ///< All corners that were selected in it, with or without depth.
   std::shared_ptr<const PreparedFrame> frame;  ///< Its image, from which corners can be described.
+  std::shared_ptr<const PackedFrame> packed;   ///< What `frame` can be made from, instead of it: for those that wait.
 };
 
 /// A point of the map from an active one. `residual_variance`: of the window that optimized it.

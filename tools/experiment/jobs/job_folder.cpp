@@ -50,6 +50,17 @@ std::optional<JobLock> JobLock::try_acquire(const fs::path& folder) {
   return lock;
 }
 
+JobLock JobLock::wait_for_folder(const fs::path& folder) {
+  JobLock lock(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock.descriptor_ < 0) {
+    throw Error(folder.string(), std::string("cannot be opened (") + std::strerror(errno) + ")",
+                "check the permissions");
+  }
+  // A file system without flock knows no other runner either: their jobs take the same lock.
+  while (flock(lock.descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+  return lock;
+}
+
 bool JobLock::is_held(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / "lock", error)) return false;

@@ -24,6 +24,8 @@ class JobLock {
  public:
   /// Nothing if another has it. The folder must exist. Throws Error if the file cannot be made or locked.
   static std::optional<JobLock> try_acquire(const std::filesystem::path& folder);
+  /// The right to write into a folder that runners share, once no other has it: an flock on the folder itself.
+  static JobLock wait_for_folder(const std::filesystem::path& folder);
   /// Whether somebody has it.
   static bool is_held(const std::filesystem::path& folder);
 

@@ -1,8 +1,13 @@
 #include "experiment/jobs/job_folder.h"
 
 #include <gtest/gtest.h>
+
 #include <sys/wait.h>
 #include <unistd.h>
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
 
 #include "ldso/error.h"
 #include "util/whole_file.h"
@@ -44,6 +49,17 @@ TEST_F(JobFolder, OnlyOneHasTheLock) {
   EXPECT_FALSE(JobLock::is_held(folder_));
   EXPECT_TRUE(JobLock::try_acquire(folder_).has_value());
   EXPECT_THROW(JobLock::try_acquire(folder_ / "nowhere"), Error);
+}
+
+TEST_F(JobFolder, AFolderThatOneWritesIntoIsLocked) {
+  const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  {
+    const JobLock lock = JobLock::wait_for_folder(folder_);
+    EXPECT_NE(flock(folder, LOCK_EX | LOCK_NB), 0);
+  }
+  EXPECT_EQ(flock(folder, LOCK_EX | LOCK_NB), 0);
+  close(folder);
+  EXPECT_THROW(JobLock::wait_for_folder(folder_ / "nowhere"), Error);
 }
 
 /// The lock of a killed runner is that of its jobs, as long as they live.

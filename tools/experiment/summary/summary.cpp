@@ -1,4 +1,5 @@
 #include "experiment/summary/summary.h"
+#include "experiment/jobs/job_folder.h"
 
 #include <algorithm>
 #include <system_error>
@@ -179,6 +180,7 @@ SummaryReport write_summary(const SummaryOptions& options) {
   report.warnings = std::move(results.warnings);
   count_states(results.jobs, report);
   const std::vector<Section> sections = sections_of(options, results.jobs, report);
+  const JobLock lock = JobLock::wait_for_folder(options.experiment);  // Two runners may end at the same moment.
   OutputFolder out = open_summary_folder(options.output);
   SummaryPage page = write_sections(options, sections, out, report);
   page.title = "Experiment " + fs::absolute(options.experiment).lexically_normal().filename().string();
