@@ -1,13 +1,10 @@
 #include "experiment/jobs/job_folder.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
-
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <atomic>
-#include <chrono>
-#include <optional>
-#include <thread>
 
 #include "ldso/error.h"
 #include "util/whole_file.h"
