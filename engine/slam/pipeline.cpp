@@ -73,7 +73,8 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
 }
 
 void Pipeline::apply(RevisedStart&& revised) {
-  if (!revised.verdict.empty()) log_to(log_, LogLevel::kInfo, revised.verdict);
+  if (!revised.verdict.empty())
+    log_to(log_, revised.is_doubtful ? LogLevel::kWarning : LogLevel::kInfo, revised.verdict);
   for (FinishedKeyframe& keyframe : revised.keyframes) finish_keyframe(std::move(keyframe));
   for (PosedFrame& frame : revised.frames) {
     if (observer_) observer_->on_frame({frame.record, true, frame.T_world_camera});

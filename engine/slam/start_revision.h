@@ -23,6 +23,7 @@ struct RevisedStart {
   std::vector<FinishedKeyframe> keyframes;  ///< That count from now on.
   std::vector<PosedFrame> frames;           ///< That have new poses.
   std::string verdict;                      ///< For the log; empty if nothing was revised.
+  bool is_doubtful = false;                 ///< It is a warning: the map itself may be wrong.
 };
 
 class StartRevision {
@@ -73,6 +74,7 @@ class StartRevision {
   RevisedStart decide(const Odometry& odometry);
   struct Judgement {
     bool is_better = false;
+    bool is_doubtful = false;  ///< The map itself may be wrong.
     std::string reason;
   };
   /// Of the pass against what there was before.

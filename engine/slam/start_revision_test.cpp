@@ -47,7 +47,10 @@ class SceneRun {
   explicit SceneRun(
       const Settings& settings, RawOf to_revise = [](auto raw) { return raw; })
       : to_revise_(std::move(to_revise)),
-        pipeline_(scene_calibration(), settings, [this](LogLevel, const std::string& line) { log += line + "\n"; }) {}
+        pipeline_(scene_calibration(), settings, [this](LogLevel level, const std::string& line) {
+          log += line + "\n";
+          if (level == LogLevel::kWarning) warnings += line + "\n";
+        }) {}
 
   void show(int from, int to) {
     for (int i = from; i < to; ++i) {
@@ -57,7 +60,7 @@ class SceneRun {
   }
   Pipeline& pipeline() { return pipeline_; }
 
-  std::string log;
+  std::string log, warnings;
 
  private:
   RawOf to_revise_;
@@ -159,6 +162,19 @@ TEST(StartRevision, APassThatFitsTheImagesLessWellIsTakenBack) {
   const SlamResult result = run(strict, &log);
   EXPECT_NE(log.find("the first frames keep their poses: going back, residuals differ by "), std::string::npos) << log;
   expect_same_poses(result, run(without));
+}
+
+TEST(StartRevision, AMapThatDoesNotLeadBackIsDoubtful) {
+  Settings settings = young();
+  settings.revision.most_residual = settings.revision.doubtful_residual = 0.1;  // Any map is, by this.
+  SceneRun seen(settings);
+  seen.show(0, kFrames);
+  seen.pipeline().finish();
+  EXPECT_NE(seen.warnings.find("the map may be wrong from its start on"), std::string::npos) << seen.log;
+  SceneRun sound(young());
+  sound.show(0, kFrames);
+  sound.pipeline().finish();
+  EXPECT_EQ(sound.warnings, "");
 }
 
 TEST(StartRevision, APostponedPassIsMadeInTheEnd) {

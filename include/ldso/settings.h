@@ -79,6 +79,7 @@ struct RevisionSettings {
   int least_frames = 30;
   int patience = 75;
   double most_residual = 0.97;
+  double doubtful_residual = 1.08;
 
   static constexpr auto fields() {
     using S = RevisionSettings;
@@ -93,6 +94,9 @@ struct RevisionSettings {
               "Most that the residuals of the first frames may then be, relative to those that they had: else the old "
               "poses stay.",
               at_least(0), kMeasured, kExpert),
+        field("doubtful_residual", &S::doubtful_residual,
+              "The same from which on the map itself is doubtful, unless the camera drives straight on.", at_least(0),
+              kMeasured, kExpert),
     };
   }
 };
