@@ -1,7 +1,7 @@
 #include "slam/backward_pass.h"
 
+#include <iterator>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -66,8 +66,8 @@ class PassKeyframes {
       }
     }
     std::vector<FinishedKeyframe> older;
-    for (auto& [id, keyframe] : std::views::reverse(std::ranges::subrange(by_id_.begin(), end))) {
-      older.push_back(std::move(keyframe.finished));
+    for (auto it = std::make_reverse_iterator(end); it != by_id_.rend(); ++it) {
+      older.push_back(std::move(it->second.finished));
     }
     return older;
   }
@@ -88,9 +88,9 @@ std::vector<FrameRecord> track_back(Odometry& back, PackedFrames frames, const F
                                     const std::stop_token& stop, PassKeyframes& keyframes) {
   std::vector<FrameRecord> records;
   int lost = 0;
-  for (const auto& packed : std::views::reverse(frames)) {
+  for (auto it = frames.rbegin(); it != frames.rend(); ++it) {
     if (stop.stop_requested()) break;
-    OdometryOutput output = back.process(std::make_shared<const PreparedFrame>(preprocessor.process(packed->unpack())));
+    OdometryOutput output = back.process(std::make_shared<const PreparedFrame>(preprocessor.process((*it)->unpack())));
     keyframes.add(std::move(output.finished));
     if (back.restarts() > 0) break;
     lost = output.frame.state == TrackingState::kTracked ? 0 : lost + 1;

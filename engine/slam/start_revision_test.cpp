@@ -17,7 +17,6 @@ namespace ldso {
 namespace {
 
 constexpr int kFrames = 70;
-constexpr double kStep = 0.02;  // Of the scene's camera [m].
 
 Settings young() {
   Settings settings;
