@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "mapping/map/reversed_constraint.h"
 #include "odometry/tracking/frame_record.h"
 
 namespace ldso {
@@ -12,13 +13,6 @@ namespace {
 
 /// Frames in a row that may fail before the camera is given up as lost.
 constexpr int kForgivenFrames = 3;
-
-/// A constraint as the other keyframe has it: exp(x) T inverted is exp(-Ad(T^-1) x) T^-1.
-KeyframeConstraint reversed(std::int64_t keyframe_id, const KeyframeConstraint& constraint) {
-  const SE3d T_other_this = constraint.T_this_other.inverse();
-  const Sim3d::Jacobian A = Sim3d(T_other_this).adjoint();
-  return {keyframe_id, T_other_this, A * constraint.covariance * A.transpose()};
-}
 
 /// Keyframes that left the window of a pass.
 class PassKeyframes {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ldso/error.h"
+#include "mapping/map/reversed_constraint.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -18,13 +19,6 @@ Matrix7d broken_covariance(const LoopDriftSettings& settings, double unit) {
   stddev << Eigen::Vector3d::Constant(settings.broken_translation * unit),
       Eigen::Vector3d::Constant(settings.broken_rotation), settings.broken_log_scale;
   return stddev.cwiseAbs2().asDiagonal();
-}
-
-/// The constraint seen from the other keyframe: exp(x) T inverted is exp(-Ad(T^-1) x) T^-1.
-Neighbour reversed(int index, const Neighbour& neighbour) {
-  const SE3d T_other_this = neighbour.T_this_other.inverse();
-  const Matrix7d A = Sim3d(T_other_this).adjoint();
-  return {index, T_other_this, A * neighbour.covariance * A.transpose()};
 }
 
 }  // namespace
@@ -59,9 +53,9 @@ int KeyframeMap::add(const KeyframeUpdate& update, std::vector<MapFeature> featu
   keyframes_[index].neighbours.reserve(std::distance(begin, end) + update.constraints.size());
   for (auto it = begin; it != end; ++it) {
     const auto& [other, constraint] = it->second;
-    const Neighbour forward{index, constraint.T_this_other, constraint.covariance};
-    keyframes_[other].neighbours.push_back(forward);
-    keyframes_[index].neighbours.push_back(reversed(other, forward));
+    const KeyframeConstraint backward = reversed(keyframes_[other].frame_id, constraint);
+    keyframes_[other].neighbours.push_back({index, constraint.T_this_other, constraint.covariance});
+    keyframes_[index].neighbours.push_back({other, backward.T_this_other, backward.covariance});
   }
   pending_.erase(begin, end);
   return index;

@@ -1,10 +1,10 @@
 #include "experiment/summary/summary.h"
-#include "experiment/jobs/job_folder.h"
 
 #include <algorithm>
 #include <system_error>
 #include <utility>
 
+#include "experiment/jobs/job_folder.h"
 #include "experiment/results/experiment_results.h"
 #include "experiment/results/results_file.h"
 #include "experiment/summary/result_figures.h"
