@@ -13,21 +13,11 @@ namespace {
 
 constexpr int kFrames = 50;
 
-RawFrame scene_frame_at(int id) {
-  const Image<std::uint8_t> image = draw_scene(id);
-  RawFrame raw;
-  raw.id = id;
-  raw.timestamp = 0.1 * id;
-  raw.grey = Image<float>(image.width(), image.height());
-  for (std::size_t i = 0; i < image.size(); ++i) raw.grey.data()[i] = static_cast<float>(image.data()[i]);
-  return raw;
-}
-
 class BackwardPassTest : public testing::Test {
  protected:
   void SetUp() override {
     for (int i = 0; i < kFrames; ++i) {
-      const RawFrame raw = scene_frame_at(i);
+      const RawFrame raw = raw_frame(i, draw_scene(i));
       frames_.push_back(std::make_shared<const PackedFrame>(raw));
       forward_.process(std::make_shared<const PreparedFrame>(preprocessor_.process(raw)));
     }
@@ -101,7 +91,7 @@ TEST_F(BackwardPassTest, TheForwardOdometryGoesOnUndisturbed) {
 }
 
 TEST_F(BackwardPassTest, EndsWhereTheCameraIsLost) {
-  RawFrame black = scene_frame_at(0);
+  RawFrame black = raw_frame(0, draw_scene(0));
   for (int i = 10; i < 20; ++i) {
     black.id = i;
     black.timestamp = 0.1 * i;

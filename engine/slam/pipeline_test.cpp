@@ -35,11 +35,7 @@ class KeyframeListener final : public RunObserver {
 class PipelineTest : public testing::Test {
  protected:
   void show(const Image<std::uint8_t>& image) {
-    RawFrame raw;
-    raw.id = next_id_++;
-    raw.timestamp = 0.1 * static_cast<double>(raw.id);
-    raw.grey = Image<float>(image.width(), image.height());
-    for (std::size_t i = 0; i < image.size(); ++i) raw.grey.data()[i] = static_cast<float>(image.data()[i]);
+    const RawFrame raw = raw_frame(next_id_++, image);
     pipeline_.process(std::make_shared<const PreparedFrame>(pipeline_.preprocessor().process(raw)));
   }
   void show_scene(int from, int to) {

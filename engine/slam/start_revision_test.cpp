@@ -28,16 +28,6 @@ Settings young() {
   return settings;
 }
 
-std::shared_ptr<RawFrame> scene_frame(int id) {
-  const Image<std::uint8_t> image = draw_scene(id);
-  auto raw = std::make_shared<RawFrame>();
-  raw->id = id;
-  raw->timestamp = 0.1 * id;
-  raw->grey = Image<float>(image.width(), image.height());
-  for (std::size_t i = 0; i < image.size(); ++i) raw->grey.data()[i] = static_cast<float>(image.data()[i]);
-  return raw;
-}
-
 /// A run over the scene. `to_revise`: what the revision is given of each frame.
 class SceneRun {
  public:
@@ -53,7 +43,7 @@ class SceneRun {
 
   void show(int from, int to) {
     for (int i = from; i < to; ++i) {
-      const std::shared_ptr<RawFrame> raw = scene_frame(i);
+      const auto raw = std::make_shared<RawFrame>(raw_frame(i, draw_scene(i)));
       pipeline_.process(std::make_shared<const PreparedFrame>(pipeline_.preprocessor().process(*raw)), to_revise_(raw));
     }
   }

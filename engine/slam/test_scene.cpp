@@ -58,4 +58,13 @@ Image<std::uint8_t> draw_scene(int frame) {
   return image;
 }
 
+RawFrame raw_frame(std::int64_t id, const Image<std::uint8_t>& image) {
+  RawFrame raw;
+  raw.id = id;
+  raw.timestamp = 0.1 * static_cast<double>(id);
+  raw.grey = Image<float>(image.width(), image.height());
+  for (std::size_t i = 0; i < image.size(); ++i) raw.grey.data()[i] = static_cast<float>(image.data()[i]);
+  return raw;
+}
+
 }  // namespace ldso
