@@ -40,7 +40,7 @@ class Recorder {
     const double start = processor_ms();
     KeyframeFeatures features =
         build_features(image, finished.corners, update.points, *vocabulary_, settings_.matching);
-    take_out_readout(finished.camera, update.readout, features.features);
+    take_out_readout(finished.update.camera, update.readout, features.features);
     describe_ms_ += processor_ms() - start;
     RunKeyframe keyframe;
     keyframe.frame_id = update.frame_id;
@@ -49,10 +49,10 @@ class Recorder {
     keyframe.T_world_camera = update.T_world_camera;
     keyframe.features = features.features;
     run_.keyframes.push_back(std::move(keyframe));
-    run_.camera = finished.camera;
+    run_.camera = finished.update.camera;
     const CurrentImage current{image, update.readout};
     const double described = processor_ms();
-    closer_.add(update, std::move(features), finished.camera, &current);
+    closer_.add(update, std::move(features), finished.update.camera, &current);
     close_ms_ += processor_ms() - described;
   }
 

@@ -47,7 +47,7 @@ TEST_F(KeyframeMakerTest, TheNewestKeyframeGetsCandidatesAndThosePastTheMostLeav
     ASSERT_TRUE(add(keyframe_maker, window, i)) << i;
     for (const FinishedKeyframe& finished : keyframe_maker.clear_up(window)) {
       left.push_back(finished.update.frame_id);
-      EXPECT_EQ(finished.camera.fx, window.camera[0]);
+      EXPECT_EQ(finished.update.camera.fx, window.camera[0]);
     }
     EXPECT_EQ(window.keyframes.back()->id(), i);
     EXPECT_GT(window.keyframes.back()->immature.size(), 300u);

@@ -82,7 +82,7 @@ void LoopThread::process(const std::stop_token& stop) {
   closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
   while (const std::optional<FinishedKeyframe> keyframe = queue_.pop()) {
     if (stop.stop_requested()) return;
-    closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->camera);
+    closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->update.camera);
     remember();
     publish(closer_->correction());
     tell();

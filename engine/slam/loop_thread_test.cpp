@@ -67,7 +67,7 @@ std::vector<FinishedKeyframe> there_and_back() {
     poses.push_back(T);
     FinishedKeyframe keyframe;
     keyframe.frame = frame_of(10 * i, place);
-    keyframe.camera = camera();
+    keyframe.update.camera = camera();
     const Image<Texel>& image = keyframe.frame->pyramid.levels.front();
     keyframe.corners = corners_of(image);
     keyframe.update.frame_id = 10 * i;

@@ -103,7 +103,7 @@ void Pipeline::finish_keyframes(std::vector<FinishedKeyframe> keyframes) {
 }
 
 void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
-  if (observer_) observer_->on_keyframe(keyframe.update, keyframe.camera);
+  if (observer_) observer_->on_keyframe(keyframe.update, keyframe.update.camera);
   result_.keyframes.push_back(loops_ ? keyframe.update : std::move(keyframe.update));
   result_.keyframes.back().constraints.clear();
   if (!loops_) return;

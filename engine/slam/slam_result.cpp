@@ -72,7 +72,8 @@ std::vector<WorldPoint> SlamResult::points(Correction correction, int part) cons
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     if (parts[i] != part) continue;
     for (const MapPoint& point : keyframes[i].points) {
-      const Eigen::Vector3d position = poses_of_keyframes[i] * position_in_camera(camera, keyframes[i].readout, point);
+      const Eigen::Vector3d position =
+          poses_of_keyframes[i] * position_in_camera(keyframes[i].camera, keyframes[i].readout, point);
       if (!(point.idepth > 0) || !position.allFinite()) continue;
       points.push_back({position, point.idepth_stddev, point.intensity});
     }

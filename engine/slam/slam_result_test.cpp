@@ -84,8 +84,8 @@ TEST(SlamResult, PosesThatAreNotFiniteAreLeftOut) {
 
 TEST(SlamResult, PointsAreInTheWorld) {
   SlamResult result;
-  result.camera = {100, 80, 50, 40, 10, 20};
   result.keyframes = {keyframe(1, at(1))};
+  result.keyframes[0].camera = {100, 80, 50, 40, 10, 20};
   MapPoint point;
   point.u = 60;  // One focal length right of the centre.
   point.v = 20;

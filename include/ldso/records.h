@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ldso/calibration.h"
 #include "ldso/image.h"
 #include "ldso/se3.h"
 #include "ldso/sim3.h"
@@ -56,6 +57,7 @@ struct KeyframeUpdate {
   int segment = 0;
   double timestamp = 0;
   SE3d T_world_camera;
+  PinholeIntrinsics camera;  ///< As estimated when it left the window: its points' pixels are those of this one.
   ReadoutMotion readout = ReadoutMotion::Zero();
   std::vector<MapPoint> points;
   std::vector<KeyframeConstraint> constraints;  ///< To the keyframes that stayed when it left, oldest first.

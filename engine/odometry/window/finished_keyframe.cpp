@@ -13,12 +13,12 @@ constexpr float kLeastKnownHessian = 1e-3f;
 
 FinishedKeyframe finish(const Window& window, const Keyframe& keyframe, bool with_active) {
   FinishedKeyframe finished;
-  finished.camera = window.intrinsics();
   finished.frame = keyframe.frame;
   finished.corners = keyframe.corners;
   KeyframeUpdate& update = finished.update;
   update.frame_id = keyframe.id();
   update.timestamp = keyframe.frame->timestamp;
+  update.camera = window.intrinsics();
   update.T_world_camera = keyframe.state.T_c_w().inverse();
   update.readout = window.readout(keyframe);
   update.points = keyframe.finished;

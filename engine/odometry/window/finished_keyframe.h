@@ -18,7 +18,6 @@ inline constexpr int kLeastGoodResiduals = 4;
 
 struct FinishedKeyframe {
   KeyframeUpdate update;
-  PinholeIntrinsics camera;                    ///< As estimated when it left: its points' pixels are those of this one.
   std::vector<Eigen::Vector2f> corners;        ///< All corners that were selected in it, with or without depth.
   std::shared_ptr<const PreparedFrame> frame;  ///< Its image, from which corners can be described.
   std::shared_ptr<const PackedFrame> packed;   ///< What `frame` can be made from, instead of it: for those that wait.

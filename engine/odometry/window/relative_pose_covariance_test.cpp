@@ -354,10 +354,10 @@ TEST_F(FinishedKeyframeTest, HasItsOwnCamera) {
   const std::vector<FinishedKeyframe> leaving = finish_leaving(window_);
   ASSERT_EQ(leaving.size(), 1u);
   window_ = bare_window(0);
-  EXPECT_EQ(leaving[0].camera.fx, 301);
-  EXPECT_EQ(leaving[0].camera.fy, 302);
-  EXPECT_EQ(leaving[0].camera.cx, 160);
-  EXPECT_EQ(leaving[0].camera.cy, 121);
+  EXPECT_EQ(leaving[0].update.camera.fx, 301);
+  EXPECT_EQ(leaving[0].update.camera.fy, 302);
+  EXPECT_EQ(leaving[0].update.camera.cx, 160);
+  EXPECT_EQ(leaving[0].update.camera.cy, 121);
 }
 
 TEST(MapPointTest, ItsDeviationGrowsWithTheResiduals) {
