@@ -20,7 +20,7 @@ ImagePyramid build_pyramid(ImageView<const float> masked) {
       current = std::move(coarser);
       view = current.view();
     }
-    Image<Texel>& texels = pyramid.levels.emplace_back(view.width, view.height);
+    Image<Texel>& texels = pyramid.levels.emplace_back(view.width, view.height, Uninitialized{});
     make_texels(view, texels.view());
   }
   return pyramid;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "util/spin.h"
+
 namespace ldso {
 
 ThreadPool::ThreadPool(int threads) {
@@ -21,15 +23,20 @@ void ThreadPool::run(int chunks, const std::function<void(int)>& task) {
     for (int chunk = 0; chunk < chunks; ++chunk) task(chunk);
     return;
   }
-  std::unique_lock lock(mutex_);
-  task_ = &task;
-  next_chunk_ = 0;
-  chunks_ = chunks;
-  error_ = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    task_ = &task;
+    chunks_ = chunks;
+    error_ = nullptr;
+    next_chunk_ = 0;
+    ++loops_;
+  }
   wake_.notify_all();
-  run_available_chunks(lock);
+  run_available_chunks(task);
+  spin_until([this] { return running_ == 0; });
+  std::unique_lock lock(mutex_);
+  task_ = nullptr;  // Who comes now comes too late.
   done_.wait(lock, [this] { return running_ == 0; });
-  task_ = nullptr;
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
@@ -41,27 +48,30 @@ void ThreadPool::for_chunks(int count, int chunk_size, const std::function<void(
 }
 
 void ThreadPool::work(const std::stop_token& stop) {
-  std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [this] { return task_ != nullptr && next_chunk_ < chunks_; })) {
-    run_available_chunks(lock);
-  }
-}
-
-void ThreadPool::run_available_chunks(std::unique_lock<std::mutex>& lock) {
-  while (task_ != nullptr && next_chunk_ < chunks_) {
-    const int chunk = next_chunk_++;
+  std::uint64_t seen = 0;
+  while (!stop.stop_requested()) {
+    spin_until([&] { return loops_ != seen || stop.stop_requested(); });
+    std::unique_lock lock(mutex_);
+    if (loops_ == seen && !wake_.wait(lock, stop, [&] { return loops_ != seen; })) return;
+    seen = loops_;
+    if (task_ == nullptr) continue;
     const auto& task = *task_;
     ++running_;
     lock.unlock();
-    std::exception_ptr error;
+    run_available_chunks(task);
+    lock.lock();
+    if (--running_ == 0) done_.notify_all();
+  }
+}
+
+void ThreadPool::run_available_chunks(const std::function<void(int)>& task) {
+  for (int chunk = next_chunk_++; chunk < chunks_; chunk = next_chunk_++) {
     try {
       task(chunk);
     } catch (...) {
-      error = std::current_exception();
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
     }
-    lock.lock();
-    if (error && !error_) error_ = error;
-    if (--running_ == 0) done_.notify_all();
   }
 }
 

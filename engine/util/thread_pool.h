@@ -1,7 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
-#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -14,6 +15,9 @@ namespace ldso {
 /// A fixed set of workers for data-parallel loops. Work is cut into chunks that depend on the amount of
 /// work only, never on the number of threads: reducing per-chunk results in chunk order gives the same
 /// bits for any number of threads.
+///
+/// Loops follow each other within microseconds (one an iteration of a solver), less than it takes to wake a thread:
+/// who has nothing to do looks out for the next loop for a short while before it sleeps.
 class ThreadPool {
  public:
   /// `threads` counts the calling thread: 1 runs everything in place.
@@ -35,16 +39,17 @@ class ThreadPool {
 
  private:
   void work(const std::stop_token& stop);
-  void run_available_chunks(std::unique_lock<std::mutex>& lock);
+  void run_available_chunks(const std::function<void(int)>& task);
 
-  std::mutex mutex_;
+  std::mutex mutex_;  ///< Of what follows, but for the atomic ones.
   std::condition_variable_any wake_;
   std::condition_variable done_;
   const std::function<void(int)>* task_ = nullptr;
-  int next_chunk_ = 0;
   int chunks_ = 0;
-  int running_ = 0;
   std::exception_ptr error_;
+  std::atomic<std::uint64_t> loops_ = 0;  ///< That were begun.
+  std::atomic<int> next_chunk_ = 0;
+  std::atomic<int> running_ = 0;  ///< Workers that take part in the loop.
   std::vector<std::jthread> workers_;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace ldso {
@@ -23,6 +25,9 @@ struct ImageView {
   operator ImageView<const T>() const requires(!std::is_const_v<T>) { return {data, width, height, stride}; }
 };
 
+/// Says that the pixels of a new image are about to be written, so that they need no value first.
+struct Uninitialized {};
+
 /// Owning, contiguous, row-major image (stride equals width).
 template <class T>
 class Image {
@@ -30,6 +35,9 @@ class Image {
   Image() = default;
   Image(int width, int height, const T& value = T{})
       : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, value) {}
+
+  Image(int width, int height, Uninitialized)
+      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -47,9 +55,22 @@ class Image {
   ImageView<const T> view() const { return {data(), width_, height_, width_}; }
 
  private:
+  /// Leaves what is made without a value as the memory is.
+  struct Allocator : std::allocator<T> {
+    template <class U>
+    struct rebind {
+      using other = typename Image<U>::Allocator;
+    };
+    template <class U, class... Arguments>
+    void construct(U* p, Arguments&&... arguments) {
+      constexpr bool keeps_memory = sizeof...(Arguments) == 0 && std::is_trivially_copyable_v<U>;
+      if constexpr (!keeps_memory) std::construct_at(p, std::forward<Arguments>(arguments)...);
+    }
+  };
+
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> pixels_;
+  std::vector<T, Allocator> pixels_;
 };
 
 }  // namespace ldso
