@@ -1,13 +1,16 @@
 #include "odometry/residual/residual_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "image/interpolation.h"
 #include "odometry/state/robust_weight.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "odometry/residual/residual_kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -84,11 +87,13 @@ HWY_INLINE Residuals residuals_at(const PatternJob& job, const TexelBlock& texel
   return out;
 }
 
-/// PatternSums lane by lane, the derivative by the offset taken as 1.
+/// PatternSums lane by lane, in its order, and the number of usable pixels.
 struct LaneSums {
-  V gxx, gxy, gyy, gxa, gya, gx, gy, aa, a, weight, rgx, rgy, ra, r;
+  V gxx, gxy, gyy, gxa, gya, gxb, gyb, aa, ab, bb, rgx, rgy, ra, rb;
   V energy, usable;
 };
+constexpr size_t kSums = 16;
+static_assert(offsetof(PatternSums, energy) == (kSums - 2) * sizeof(float), "the sums are written as one block");
 
 HWY_INLINE LaneSums zero_sums() {
   const V zero = hn::Zero(Lanes8());
@@ -102,38 +107,38 @@ HWY_INLINE void add(const Residuals& p, LaneSums& sums) {
   sums.gyy = hn::MulAdd(wgy, p.gy, sums.gyy);
   sums.gxa = hn::MulAdd(wgx, p.a, sums.gxa);
   sums.gya = hn::MulAdd(wgy, p.a, sums.gya);
-  sums.gx = hn::Add(sums.gx, wgx);
-  sums.gy = hn::Add(sums.gy, wgy);
+  sums.gxb = hn::Sub(sums.gxb, wgx);  // The derivative by b is -1.
+  sums.gyb = hn::Sub(sums.gyb, wgy);
   sums.aa = hn::MulAdd(wa, p.a, sums.aa);
-  sums.a = hn::Add(sums.a, wa);
-  sums.weight = hn::Add(sums.weight, p.weight);
+  sums.ab = hn::Sub(sums.ab, wa);
+  sums.bb = hn::Add(sums.bb, p.weight);
   sums.rgx = hn::MulAdd(wgx, p.r, sums.rgx);
   sums.rgy = hn::MulAdd(wgy, p.r, sums.rgy);
   sums.ra = hn::MulAdd(wa, p.r, sums.ra);
-  sums.r = hn::MulAdd(p.weight, p.r, sums.r);
+  sums.rb = hn::NegMulAdd(p.weight, p.r, sums.rb);
   const V two = hn::Set(Lanes8(), 2.0f);
   sums.energy = hn::MulAdd(hn::Mul(p.weight, hn::Mul(p.r, p.r)), hn::Sub(two, p.robust), sums.energy);
   sums.usable = hn::Add(sums.usable, p.usable);
 }
 
-HWY_INLINE void reduce(const LaneSums& sums, PatternSums& out) {
-  const auto total = [](V v) { return hn::GetLane(hn::SumOfLanes(Lanes8(), v)); };
-  out.gxx = total(sums.gxx);
-  out.gxy = total(sums.gxy);
-  out.gyy = total(sums.gyy);
-  out.gxa = total(sums.gxa);
-  out.gya = total(sums.gya);
-  out.gxb = -total(sums.gx);
-  out.gyb = -total(sums.gy);
-  out.aa = total(sums.aa);
-  out.ab = -total(sums.a);
-  out.bb = total(sums.weight);
-  out.rgx = total(sums.rgx);
-  out.rgy = total(sums.rgy);
-  out.ra = total(sums.ra);
-  out.rb = -total(sums.r);
-  out.energy = total(sums.energy);
-  out.in_view = total(sums.usable) >= 0.5f * kPatternSize;
+/// Sums over the lanes, of all at once: neighbours are added until each lane holds one sum.
+HWY_INLINE void reduce(const LaneSums& s, PatternSums& out) {
+  const Lanes8 d;
+  V v[kSums] = {s.gxx, s.gxy, s.gyy, s.gxa, s.gya, s.gxb, s.gyb,    s.aa,
+                s.ab,  s.bb,  s.rgx, s.rgy, s.ra,  s.rb,  s.energy, s.usable};
+#if HWY_TARGET != HWY_SCALAR
+  size_t count = kSums;
+  for (size_t lanes = hn::Lanes(d); lanes > 1; lanes /= 2) {
+    count /= 2;
+    for (size_t i = 0; i < count; ++i) {
+      v[i] = hn::Add(hn::ConcatEven(d, v[2 * i + 1], v[2 * i]), hn::ConcatOdd(d, v[2 * i + 1], v[2 * i]));
+    }
+  }
+#endif
+  HWY_ALIGN float totals[kSums];
+  for (size_t i = 0; i < kSums; i += hn::Lanes(d)) hn::Store(v[i / hn::Lanes(d)], d, totals + i);
+  std::memcpy(static_cast<void*>(&out), totals, (kSums - 1) * sizeof(float));
+  out.in_view = totals[kSums - 1] >= 0.5f * kPatternSize;
 }
 
 HWY_INLINE void sum_pattern(const PatternJob& job, const TexelBlock& texels, PatternSums& out) {
@@ -142,15 +147,40 @@ HWY_INLINE void sum_pattern(const PatternJob& job, const TexelBlock& texels, Pat
   reduce(sums, out);
 }
 
-void evaluate_patterns_simd(const PatternJob* jobs, PatternSums* sums, int count) {
+/// Where the pixels of a pattern land.
+struct WarpedPattern {
   HWY_ALIGN float xs[kPatternSize];
   HWY_ALIGN float ys[kPatternSize];
+  bool inside = false;
+};
+
+/// Warps a pattern and asks for the texels that it will read, which seldom are in a cache.
+HWY_INLINE void prepare(const PatternJob& job, WarpedPattern& pattern) {
+  pattern.inside = warp_pattern(job, pattern.xs, pattern.ys);
+  if (!pattern.inside) return;
+  const std::ptrdiff_t width = job.warp->width;
+  constexpr int kMiddle = 4;  // Of the pattern: it reaches two pixels further, and each sample one more.
+  const Texel* middle = job.warp->texels + static_cast<std::ptrdiff_t>(pattern.ys[kMiddle]) * width +
+                        static_cast<std::ptrdiff_t>(pattern.xs[kMiddle]);
+  for (std::ptrdiff_t row = -2; row <= 3; ++row) {
+    hwy::Prefetch(middle + row * width - 1);
+    hwy::Prefetch(middle + row * width + 2);
+  }
+}
+
+void evaluate_patterns_simd(const PatternJob* jobs, PatternSums* sums, int count) {
+  constexpr int kAhead = 4;  // Patterns that wait for their texels.
+  WarpedPattern patterns[kAhead];
   TexelBlock texels;
+  for (int i = 0; i < std::min(kAhead, count); ++i) prepare(jobs[i], patterns[i]);
   for (int i = 0; i < count; ++i) {
+    WarpedPattern& pattern = patterns[i % kAhead];
     sums[i].in_view = false;
-    if (!warp_pattern(jobs[i], xs, ys)) continue;
-    sample_eight(jobs[i].warp->texels, jobs[i].warp->width, xs, ys, texels);
-    sum_pattern(jobs[i], texels, sums[i]);
+    if (pattern.inside) {
+      sample_eight(jobs[i].warp->texels, jobs[i].warp->width, pattern.xs, pattern.ys, texels);
+      sum_pattern(jobs[i], texels, sums[i]);
+    }
+    if (i + kAhead < count) prepare(jobs[i + kAhead], pattern);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "image/interpolation.h"
 
@@ -104,6 +105,20 @@ struct Accumulators {
   V energy, count, saturated;
 };
 
+/// Row `A` of the weighted products, upper triangle.
+template <int A, std::size_t... I>
+HWY_INLINE void add_row(V weight, const V* J, V* products, std::index_sequence<I...>) {
+  constexpr int first = A * (kAlignmentDof + 1) - A * (A - 1) / 2;
+  const V weighted = hn::Mul(weight, J[A]);
+  ((products[first + I] = hn::MulAdd(weighted, J[A + I], products[first + I])), ...);
+}
+
+/// All of them. Written out: a loop over them costs more than the products.
+template <std::size_t... A>
+HWY_INLINE void add_products(V weight, const V* J, V* products, std::index_sequence<A...>) {
+  (add_row<A>(weight, J, products, std::make_index_sequence<kAlignmentDof + 1 - A>()), ...);
+}
+
 HWY_INLINE void accumulate_block(const AlignmentPoints& points, int begin, int count, const AlignmentWarp& w,
                                  const BlockBuffer& buffer, Accumulators& sums) {
   const Block d;
@@ -137,11 +152,7 @@ HWY_INLINE void accumulate_block(const AlignmentPoints& points, int begin, int c
     J[6] = hn::Mul(hn::Set(d, -w.factor), hn::Sub(ref, hn::Set(d, w.ref_b)));
     J[7] = hn::Set(d, -1.0f);
     J[8] = r;
-    int k = 0;
-    for (int a = 0; a <= kAlignmentDof; ++a) {
-      const V wa = hn::Mul(weight, J[a]);
-      for (int b = a; b <= kAlignmentDof; ++b, ++k) sums.products[k] = hn::MulAdd(wa, J[b], sums.products[k]);
-    }
+    add_products(weight, J, sums.products, std::make_index_sequence<kAlignmentDof + 1>());
   }
 }
 

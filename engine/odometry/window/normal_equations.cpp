@@ -1,6 +1,7 @@
 #include "odometry/window/normal_equations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ldso {
@@ -23,6 +24,44 @@ double classify(const Keyframe& host, PointResidual& residual, int slot) {
   residual.states[slot] = outlier ? ResidualState::kOutlier : ResidualState::kInlier;
   return outlier ? threshold : sums.energy;
 }
+
+/// Residuals of one host on their way through the kernel, which is faster with many at once.
+class ResidualBatch {
+ public:
+  ResidualBatch(const Keyframe& host, int slot) : host_(host), slot_(slot) {}
+
+  void add(const PatternJob& job, PointResidual& residual) {
+    jobs_[count_] = job;
+    residuals_[count_] = &residual;
+    if (++count_ == kMost) evaluate();
+  }
+
+  /// Their energy, after the last one was added.
+  double finish() {
+    evaluate();
+    return energy_;
+  }
+
+ private:
+  static constexpr int kMost = 64;
+
+  void evaluate() {
+    evaluate_patterns(jobs_.data(), sums_.data(), count_);
+    for (int i = 0; i < count_; ++i) {
+      residuals_[i]->sums[slot_] = sums_[i];
+      energy_ += classify(host_, *residuals_[i], slot_);
+    }
+    count_ = 0;
+  }
+
+  const Keyframe& host_;
+  int slot_;
+  int count_ = 0;
+  double energy_ = 0;
+  std::array<PatternJob, kMost> jobs_;
+  std::array<PatternSums, kMost> sums_;
+  std::array<PointResidual*, kMost> residuals_;
+};
 
 /// Adds J^T M J of one residual, M being its sums over the pattern, and its right-hand side.
 void accumulate_residual(const PatternSums& s, const ProjectionJacobian& J, RelativeMatrix& H, RelativeVector& b) {
@@ -100,15 +139,14 @@ double linearize(const Window& window, const FramePairs& pairs, const std::vecto
   std::vector<double> energies(chunks.size(), 0.0);
   pool.run(static_cast<int>(chunks.size()), [&](int c) {
     const PointChunk& chunk = chunks[c];
-    const Keyframe& host = *window.keyframes[chunk.host];
+    ResidualBatch batch(*window.keyframes[chunk.host], slot);
     for (ActivePoint* point : chunk.points) {
       for (PointResidual& residual : point->residuals) {
-        const PatternJob job{&point->patch, &pairs(chunk.host, residual.target->index).warp, point->u, point->v,
-                             point->idepth};
-        evaluate_patterns(&job, &residual.sums[slot], 1);
-        energies[c] += classify(host, residual, slot);
+        batch.add({&point->patch, &pairs(chunk.host, residual.target->index).warp, point->u, point->v, point->idepth},
+                  residual);
       }
     }
+    energies[c] = batch.finish();
   });
   double energy = 0;
   for (const double e : energies) energy += e;
