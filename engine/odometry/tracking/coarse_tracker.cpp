@@ -25,7 +25,8 @@ constexpr double kLambdaDown = 0.5;
 constexpr double kLambdaUp = 4;
 /// Damping after such a step at least.
 constexpr double kLeastLambdaUp = 1e-3;
-/// Steps shorter than this change no pixel [rad], with brightness in the proportions below.
+/// Steps shorter than this change no pixel of the finest level [rad], with brightness in the proportions below; on each
+/// coarser one twice as long ones don't.
 constexpr double kSmallStep = 1e-4;
 /// A log brightness factor of 1 counts as such a turn [rad].
 constexpr double kTurnPerLogFactor = 0.1;
@@ -190,7 +191,7 @@ CoarseTracker::LevelSystem CoarseTracker::align_level(const PreparedFrame& frame
     }
     const double scaled_step = map_.mean_idepth * step.head<3>().norm() + step.segment<3>(3).norm() +
                                kTurnPerLogFactor * std::abs(step[6]) + kTurnPerGreyLevel * std::abs(step[7]);
-    if (scaled_step < kSmallStep) break;
+    if (scaled_step < kSmallStep * (1 << level)) break;
   }
   return system;
 }
@@ -223,6 +224,12 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
   result.good = std::abs(log_factor) < kLargestLogBrightness + std::abs(std::log(frame.exposure_ms / ref_exposure_)) &&
                 std::abs(estimate.brightness.b) < kLargestOffset;
   return result;
+}
+
+double CoarseTracker::start_energy(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
+                                   const BrightnessPrior& prior, const PreviousFrame& previous) const {
+  const int coarsest = static_cast<int>(map_.levels.size()) - 1;
+  return evaluate(frame, coarsest, {T_new_ref, brightness, prior, previous}, settings_.cutoff).mean();
 }
 
 double CoarseTracker::agreement(const PreparedFrame& frame, const AlignmentResult& result, double wanted) const {

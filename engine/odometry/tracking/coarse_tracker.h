@@ -42,6 +42,10 @@ class CoarseTracker {
                         const BrightnessPrior& prior, const std::vector<double>& limits,
                         const PreviousFrame& previous = {}) const;
 
+  /// Mean energy of a frame on the coarsest level, where a hypothesis begins; infinite if it shows too little there.
+  double start_energy(const PreparedFrame& frame, const SE3d& T_new_ref, const Brightness& brightness,
+                      const BrightnessPrior& prior, const PreviousFrame& previous) const;
+
   /// Pixel motion and brightness change of an aligned frame.
   FrameMotion motion(const PreparedFrame& frame, const AlignmentResult& result) const;
 

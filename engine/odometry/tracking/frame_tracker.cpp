@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "image/image_structure.h"
 #include "odometry/tracking/frame_record.h"
@@ -12,6 +13,9 @@ namespace {
 
 /// No image is read for longer than until the next; timestamps may waver.
 constexpr double kLargestReadoutShare = 2;
+/// Turned start poses that are tried. Neighbours on the grid of turns lead to the same place: more would cost a search
+/// of a fifth of a second and find nothing else.
+constexpr std::size_t kTriedTurns = 12;
 
 /// Zero if the times say nothing.
 SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
@@ -113,16 +117,36 @@ SE3d FrameTracker::expected_motion(double time) const {
 
 AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
   const PreviousFrame previous = previous_frame(frame.timestamp, last_time_, T_last_ref_);
+  const std::vector<SE3d> motions = motion_hypotheses(T_last_ref_, expected_motion(frame.timestamp));
   AlignmentResult best;
-  for (const SE3d& pose : motion_hypotheses(T_last_ref_, expected_motion(frame.timestamp))) {
+  if (improve(motions, frame, previous, best)) return best;
+  improve(most_promising(turned_hypotheses(motions.front()), frame, previous), frame, previous, best);
+  return best;
+}
+
+bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
+                           AlignmentResult& best) const {
+  for (const SE3d& pose : starts) {
     // Only what beats the best so far is of interest.
     const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
     const AlignmentResult result = aligner_.align(frame, pose, last_brightness_, priors_.of(frame), limits, previous);
     if (!result.good || !std::isfinite(result.rmse()) || result.rmse() > settings_.lost_rmse) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
     const bool as_good_as_ever = last_rmse_.empty() || best.rmse() < settings_.good_ratio * last_rmse_.front();
-    if (as_good_as_ever) break;
+    if (as_good_as_ever) return true;
   }
+  return false;
+}
+
+std::vector<SE3d> FrameTracker::most_promising(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                                               const PreviousFrame& previous) const {
+  std::vector<std::pair<double, std::size_t>> energies;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    energies.emplace_back(aligner_.start_energy(frame, starts[i], last_brightness_, priors_.of(frame), previous), i);
+  }
+  std::sort(energies.begin(), energies.end());
+  std::vector<SE3d> best;
+  for (std::size_t k = 0; k < std::min(kTriedTurns, energies.size()); ++k) best.push_back(starts[energies[k].second]);
   return best;
 }
 

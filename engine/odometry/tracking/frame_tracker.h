@@ -77,6 +77,12 @@ class FrameTracker {
 
  private:
   AlignmentResult align(const PreparedFrame& frame) const;
+  /// Aligns the frame from each of the poses; keeps what beats `best`. True as soon as that is as good as ever.
+  bool improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
+               AlignmentResult& best) const;
+  /// Those with the least energy on the coarsest level, the best first.
+  std::vector<SE3d> most_promising(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                                   const PreviousFrame& previous) const;
   /// Near a pose that is wrong there is always something that looks alike: after a loss more has to agree.
   double wanted_agreement() const { return is_lost_ ? settings_.resume_agreement : settings_.least_agreement; }
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);

@@ -29,8 +29,11 @@ SE3d motion_over(const SE3d& motion, double ratio) { return ratio == 1 ? motion 
 std::vector<SE3d> motion_hypotheses(const SE3d& T_last_ref, const SE3d& T_new_last) {
   const SE3d expected = T_new_last * T_last_ref;
   const SE3d::Tangent motion = T_new_last.log();
-  std::vector<SE3d> poses = {expected, SE3d::exp(2 * motion) * T_last_ref, SE3d::exp(0.5 * motion) * T_last_ref,
-                             T_last_ref, SE3d()};
+  return {expected, SE3d::exp(2 * motion) * T_last_ref, SE3d::exp(0.5 * motion) * T_last_ref, T_last_ref, SE3d()};
+}
+
+std::vector<SE3d> turned_hypotheses(const SE3d& expected) {
+  std::vector<SE3d> poses;
   for (const double angle : kAngles) {
     for (int x = -1; x <= 1; ++x) {
       for (int y = -1; y <= 1; ++y) {

@@ -19,7 +19,10 @@ double step_ratio(double seconds, double last_seconds);
 SE3d motion_over(const SE3d& motion, double ratio);
 
 /// Poses T_new_ref from the last frame's `T_last_ref` and the motion expected since, `T_new_last`: that motion, twice
-/// that far, half as far, none, none since the keyframe, then that motion with small rotations in 26 directions.
+/// that far, half as far, none, none since the keyframe.
 std::vector<SE3d> motion_hypotheses(const SE3d& T_last_ref, const SE3d& T_new_last);
+
+/// The expected pose with small rotations in 26 directions, the smallest ones first.
+std::vector<SE3d> turned_hypotheses(const SE3d& expected);
 
 }  // namespace ldso
