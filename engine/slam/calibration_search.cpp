@@ -10,6 +10,10 @@ namespace {
 
 /// A calibration that is being tried has to stay where it is but for so many standard deviations.
 constexpr double kTriedSignificance = 3;
+/// Deviations of so many times what is needed are clear before all frames have been seen.
+constexpr double kClear = 2;
+/// So many windows of the first pass are enough to compare those of a later one with.
+constexpr std::size_t kLeastFits = 24;
 /// From the third on, a change of the calibration by more than this factor times the one before is a flight. Each may
 /// be somewhat larger than the last: what is not determined in bent images may be so once they are straighter.
 constexpr double kLargestStepFactor = 2;
@@ -27,34 +31,43 @@ CalibrationSearch::CalibrationSearch(Calibration given, const SelfCalibrationSet
   if (!settings_.enabled || settings_.passes < 2) state_ = State::kKept;
 }
 
+double CalibrationSearch::contradiction() const {
+  return state_ == State::kGiven ? settings_.significance : kTriedSignificance;
+}
+
+bool CalibrationSearch::is_clear(const CalibrationFindings& findings) const {
+  const bool comes_again = passes_ + 2 < settings_.passes;  // The last one is to see all frames.
+  return comes_again && findings.fits.size() >= kLeastFits && findings.deviations > kClear * contradiction() &&
+         objection(findings, passes_ + 1).empty();
+}
+
 bool CalibrationSearch::begins_anew(const CalibrationFindings& findings) {
   ++passes_;
-  if (state_ == State::kGiven) {
-    if (!(findings.deviations > settings_.significance)) {
-      state_ = State::kKept;
-      return false;
-    }
-    fits_ = findings.fits;
-    state_ = State::kTrying;
-    return try_next(findings);
+  const bool contradicts = findings.deviations > contradiction();
+  if (state_ == State::kTrying) return contradicts && passes_ < settings_.passes ? try_next(findings) : prove(findings);
+  state_ = contradicts ? State::kTrying : State::kKept;
+  if (!contradicts) return false;
+  fits_ = findings.fits;
+  return try_next(findings);
+}
+
+std::string CalibrationSearch::objection(const CalibrationFindings& findings, int pass) const {
+  if (const FitChange change = compare_fits(fits_, findings.fits); change.is_known && change.residual > 0) {
+    return format_text("residuals have become larger by %.2f %%", 100 * change.residual);
   }
-  const bool moves_on = findings.deviations > kTriedSignificance && passes_ < settings_.passes;
-  return moves_on ? try_next(findings) : prove(findings);
+  const double step = step_between(calibration_.camera, findings.better.camera);
+  const bool is_noise = findings.deviations < settings_.significance;
+  if (pass > 2 && !is_noise && step > kLargestStepFactor * step_) {
+    return "it does not come to rest: from one pass to the next it changed by " +
+           format_text("%.1f px after %.1f px", step, step_);
+  }
+  return {};
 }
 
 bool CalibrationSearch::try_next(const CalibrationFindings& findings) {
-  Calibration better = findings.better;
-  const double step = step_between(calibration_.camera, better.camera);
-  if (const FitChange change = compare_fits(fits_, findings.fits); change.is_known && change.residual > 0) {
-    return refuse(format_text("residuals have become larger by %.2f %%", 100 * change.residual));
-  }
-  const bool is_noise = findings.deviations < settings_.significance;
-  if (passes_ > 2 && !is_noise && step > kLargestStepFactor * step_) {
-    return refuse("it does not come to rest: from one pass to the next it changed by " +
-                  format_text("%.1f px after %.1f px", step, step_));
-  }
-  step_ = step;
-  calibration_ = std::move(better);
+  if (const std::string reason = objection(findings, passes_); !reason.empty()) return refuse(reason);
+  step_ = step_between(calibration_.camera, findings.better.camera);
+  calibration_ = findings.better;
   return true;
 }
 

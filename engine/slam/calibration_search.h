@@ -20,6 +20,9 @@ class CalibrationSearch {
   const Calibration& calibration() const { return calibration_; }
   /// Whether that pass is to be watched.
   bool is_open() const { return state_ == State::kGiven || state_ == State::kTrying; }
+  /// Whether the findings of the frames so far speak so clearly that the other ones need not be waited for: that the
+  /// next pass is needed is certain, and that one tells more than the rest of this one.
+  bool is_clear(const CalibrationFindings& findings) const;
   /// To be called once, after the watched frames of a pass with calibration(). True if it is to begin anew.
   bool begins_anew(const CalibrationFindings& findings);
 
@@ -34,6 +37,10 @@ class CalibrationSearch {
  private:
   enum class State { kGiven, kTrying, kKept, kProven, kRefused };
 
+  /// Deviations that contradict the calibration of this pass.
+  double contradiction() const;
+  /// What speaks against another pass after this one, the `pass`-th, or nothing.
+  std::string objection(const CalibrationFindings& findings, int pass) const;
   bool try_next(const CalibrationFindings& findings);
   bool prove(const CalibrationFindings& findings);
   bool refuse(const std::string& why);

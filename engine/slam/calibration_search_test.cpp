@@ -63,6 +63,19 @@ TEST(CalibrationSearch, PassesThatDoNotComeToRestAreRefusedAsAWhole) {
   EXPECT_NE(search.refusal().find("come to rest"), std::string::npos) << search.refusal();
 }
 
+TEST(CalibrationSearch, AClearContradictionNeedsNotAllFrames) {
+  const SelfCalibrationSettings settings;
+  CalibrationSearch search(scene_calibration(), settings);
+  EXPECT_FALSE(search.is_clear(findings(1.5 * settings.significance, 1.1, 1)));
+  EXPECT_TRUE(search.is_clear(findings(3 * settings.significance, 1.1, 1)));
+  CalibrationFindings few = findings(3 * settings.significance, 1.1, 1);
+  few.fits.resize(10);
+  EXPECT_FALSE(search.is_clear(few)) << "nothing could be compared with them";
+  ASSERT_TRUE(search.begins_anew(findings(20, 1.1, 1)));
+  EXPECT_TRUE(search.is_clear(findings(7, 1.12, 0.9)));
+  EXPECT_FALSE(search.is_clear(findings(7, 1.12, 1.2))) << "residuals are larger: more frames have to say so";
+}
+
 TEST(CalibrationSearch, OffItKeepsWhatWasGiven) {
   SelfCalibrationSettings settings;
   settings.enabled = false;

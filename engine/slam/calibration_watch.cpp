@@ -14,15 +14,14 @@ CalibrationWatch::CalibrationWatch(const Calibration& calibration, const SelfCal
                                    const Pipeline& pipeline)
     : settings_(settings), estimate_(calibration, pipeline.preprocessor().output_camera(), settings) {}
 
-void CalibrationWatch::add(const FrameRecord& frame, Pipeline& pipeline) {
-  if (is_over()) return;
+bool CalibrationWatch::add(const FrameRecord& frame, Pipeline& pipeline) {
+  if (is_over()) return false;
   ++frames_;
   if (frame.state != TrackingState::kTracked) keyframes_ = 0;
-  if (!frame.is_keyframe) return;
-  if (++keyframes_ <= kSettledKeyframes) return;
+  if (!frame.is_keyframe || ++keyframes_ <= kSettledKeyframes) return false;
   const StageTimer timer(pipeline.times(), "self_calibration");
-  estimate_.add(pipeline.window());
   fits_.push_back(fit_of(pipeline.window()));
+  return estimate_.add(pipeline.window());
 }
 
 std::string describe_change(const CameraCalibration& from, const CameraCalibration& to) {

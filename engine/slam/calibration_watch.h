@@ -22,8 +22,9 @@ class CalibrationWatch {
  public:
   CalibrationWatch(const Calibration& calibration, const SelfCalibrationSettings& settings, const Pipeline& pipeline);
 
-  /// To be called after each frame. A map that has just begun says nothing, nor does one that has lost its camera.
-  void add(const FrameRecord& frame, Pipeline& pipeline);
+  /// To be called after each frame; true if the findings are new. A map that has just begun says nothing, nor does one
+  /// that has lost its camera.
+  bool add(const FrameRecord& frame, Pipeline& pipeline);
 
   /// Frames that are looked at have all come.
   bool is_over() const { return frames_ >= settings_.frames; }

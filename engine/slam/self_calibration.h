@@ -16,8 +16,8 @@ class SelfCalibration {
   SelfCalibration(const Calibration& calibration, const PinholeIntrinsics& rectified,
                   const SelfCalibrationSettings& settings);
 
-  /// To be called after each keyframe of a sound map with the window as it then is.
-  void add(const Window& window) { estimator_.add(window); }
+  /// To be called after each keyframe of a sound map with the window as it then is. False if it tells nothing new.
+  bool add(const Window& window) { return estimator_.add(window); }
 
   /// By how many of its standard deviations the residuals contradict the calibration. 0 if the difference is too small
   /// to matter, if it comes from few windows, or if it is so large that something else must be wrong.

@@ -67,8 +67,7 @@ class Pass {
       const FrameRecord& frame = process(dataset_, pipeline_, *item);
       if (options.progress) options.progress({done_ + 1, dataset_.size(), pipeline_.keyframes(), frame, 0});
       checkpoints.after_frame(pipeline_, run_);
-      if (watch_) watch_->add(frame, pipeline_);
-      if (watch_ && watch_->is_over() && begins_anew()) return PassEnd::kBeginsAnew;
+      if (is_decided(frame) && begins_anew()) return PassEnd::kBeginsAnew;
     }
     return watch_ && begins_anew() ? PassEnd::kBeginsAnew : PassEnd::kDone;
   }
@@ -77,7 +76,14 @@ class Pass {
   int done() const { return done_; }  ///< Frames.
 
  private:
-  /// Once, after the frames that are watched.
+  /// Whether the frames so far tell what becomes of the calibration.
+  bool is_decided(const FrameRecord& frame) {
+    if (!watch_) return false;
+    const bool is_new = watch_->add(frame, pipeline_);
+    return watch_->is_over() || (is_new && search_->is_clear(watch_->findings()));
+  }
+
+  /// Once, when that is so.
   bool begins_anew() {
     const bool anew = search_->begins_anew(watch_->findings());
     watch_.reset();
