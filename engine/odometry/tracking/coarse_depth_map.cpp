@@ -1,5 +1,6 @@
 #include "odometry/tracking/coarse_depth_map.h"
 
+#include <array>
 #include <cmath>
 
 #include "odometry/residual/photometric_residual.h"
@@ -7,34 +8,46 @@
 namespace ldso {
 namespace {
 
-/// Weighted inverse depths of one level.
+/// Inverse depths that fell into one pixel, or were lent to it by its neighbours.
+struct DepthCell {
+  float weighted = 0;  ///< Sum of idepth * weight.
+  float weight = 0;    ///< Sum of weights; 0: no depth.
+};
+
+/// Weighted inverse depths of one level. Few pixels have one: those are listed.
 struct DepthGrid {
-  Image<float> weighted;  ///< Sum of idepth * weight.
-  Image<float> weight;    ///< Sum of weights; 0: no depth.
+  DepthGrid(int width, int height) : cells(width, height) {}
+
+  void add(int x, int y, float weighted, float weight) {
+    DepthCell& cell = cells(x, y);
+    if (cell.weight == 0) occupied.push_back({x, y});
+    cell.weighted += weighted;
+    cell.weight += weight;
+  }
+
+  struct Pixel {
+    int x = 0, y = 0;
+  };
+  Image<DepthCell> cells;
+  std::vector<Pixel> occupied;
 };
 
 DepthGrid splat(const std::vector<DepthSample>& samples, int width, int height) {
-  DepthGrid grid{Image<float>(width, height, 0.0f), Image<float>(width, height, 0.0f)};
+  DepthGrid grid(width, height);
   for (const DepthSample& s : samples) {
     // Not lround, a slow call: truncation is wrong for negative numbers only, in columns and rows collect() leaves out.
     const float u = s.u + 0.5f, v = s.v + 0.5f;
     if (!(u > -1 && v > -1 && u < static_cast<float>(width) && v < static_cast<float>(height))) continue;
-    const int x = static_cast<int>(u), y = static_cast<int>(v);
-    grid.weighted(x, y) += s.idepth * s.weight;
-    grid.weight(x, y) += s.weight;
+    grid.add(static_cast<int>(u), static_cast<int>(v), s.idepth * s.weight, s.weight);
   }
   return grid;
 }
 
 DepthGrid halve(const DepthGrid& fine, int width, int height) {
-  DepthGrid grid{Image<float>(width, height, 0.0f), Image<float>(width, height, 0.0f)};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-        grid.weighted(x, y) += fine.weighted(2 * x + dx, 2 * y + dy);
-        grid.weight(x, y) += fine.weight(2 * x + dx, 2 * y + dy);
-      }
-    }
+  DepthGrid grid(width, height);
+  for (const auto [x, y] : fine.occupied) {
+    const DepthCell& cell = fine.cells(x, y);
+    if (x / 2 < width && y / 2 < height) grid.add(x / 2, y / 2, cell.weighted, cell.weight);
   }
   return grid;
 }
@@ -42,37 +55,41 @@ DepthGrid halve(const DepthGrid& fine, int width, int height) {
 /// Gives pixels without depth the mean of their four neighbours with depth: diagonal ones on the fine levels, where
 /// points lie sparse, direct ones on the coarse.
 void dilate(DepthGrid& grid, bool diagonal) {
-  const DepthGrid before = grid;
-  const int width = grid.weight.width(), height = grid.weight.height();
-  const int step = diagonal ? width + 1 : 1;
-  const int other_step = diagonal ? width - 1 : width;
-  for (int y = 1; y + 1 < height; ++y) {
-    for (int x = 1; x + 1 < width; ++x) {
-      if (before.weight(x, y) > 0) continue;
-      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * width + x;
-      float weighted = 0, weight = 0;
+  using Step = DepthGrid::Pixel;
+  const std::array<Step, 4> steps = diagonal ? std::array<Step, 4>{{{1, 1}, {-1, -1}, {-1, 1}, {1, -1}}}
+                                             : std::array<Step, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  const int width = grid.cells.width(), height = grid.cells.height();
+  // What is lent has a negative weight until all is lent: it is lent on to nobody.
+  std::vector<DepthGrid::Pixel> lent;
+  for (const DepthGrid::Pixel pixel : grid.occupied) {
+    for (const Step step : steps) {
+      const int x = pixel.x + step.x, y = pixel.y + step.y;
+      if (x < 1 || y < 1 || x + 1 >= width || y + 1 >= height || grid.cells(x, y).weight != 0) continue;
+      DepthCell sum;
       int neighbours = 0;
-      for (const std::ptrdiff_t n : {at + step, at - step, at + other_step, at - other_step}) {
-        if (!(before.weight.data()[n] > 0)) continue;
-        weighted += before.weighted.data()[n];
-        weight += before.weight.data()[n];
+      for (const Step other : steps) {
+        const DepthCell& neighbour = grid.cells(x + other.x, y + other.y);
+        if (!(neighbour.weight > 0)) continue;
+        sum.weighted += neighbour.weighted;
+        sum.weight += neighbour.weight;
         ++neighbours;
       }
-      if (neighbours == 0) continue;
-      grid.weighted(x, y) = weighted / static_cast<float>(neighbours);
-      grid.weight(x, y) = weight / static_cast<float>(neighbours);
+      grid.cells(x, y) = {sum.weighted / static_cast<float>(neighbours), -sum.weight / static_cast<float>(neighbours)};
+      lent.push_back({x, y});
     }
   }
+  for (const auto [x, y] : lent) grid.cells(x, y).weight *= -1;
 }
 
 AlignmentPoints collect(const DepthGrid& grid, const Image<Texel>& image) {
   AlignmentPoints points;
   for (int y = 2; y + 2 < image.height(); ++y) {
     for (int x = 2; x + 2 < image.width(); ++x) {
-      const float weight = grid.weight(x, y);
+      const auto [weighted, weight] = grid.cells(x, y);
+      if (!(weight > 0)) continue;
       const Texel& texel = image(x, y);
-      if (!(weight > 0) || !(texel.valid > 0.5f)) continue;
-      const float idepth = grid.weighted(x, y) / weight;
+      if (!(texel.valid > 0.5f)) continue;
+      const float idepth = weighted / weight;
       if (!(idepth > 0)) continue;
       points.u.push_back(static_cast<float>(x));
       points.v.push_back(static_cast<float>(y));
