@@ -69,6 +69,13 @@ TEST_F(CameraFile, NamedModelsTakeTheirParameters) {
   }
 }
 
+TEST_F(CameraFile, MayHaveCommentsBehindItsValues) {
+  const Calibration r =
+      read("# my camera\nPinhole 525 526 319.5 239.5 0  # fx fy cx cy\n640 480 # size\ncrop #\n640 480\n");
+  EXPECT_EQ(r.camera.fy, 526);
+  EXPECT_EQ(r.rectification.mode, RectificationMode::kCrop);
+}
+
 TEST_F(CameraFile, ExplicitIntrinsicsAreRelativeToTheOutputSize) {
   const Calibration a = read("FOV 500 501 319.5 239.5 0.9\n640 480\n0.4 0.5 0.5 0.5 0\n320 240\n");
   ASSERT_EQ(a.rectification.mode, RectificationMode::kExplicit);

@@ -4,7 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/calibration/unused_photometry.h"
 #include "io/datasets/sequence_dataset.h"
+#include "io/images/image_names.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 
@@ -59,12 +61,13 @@ std::unique_ptr<Dataset> open_images_with_text_files(const std::string& format_n
   Sequence sequence;
   sequence.format_name = format_name;
   sequence.location = folder.string();
-  const std::vector<std::string> names = images->names();
+  const std::vector<std::string> names = choose_images(images->names(), options.pattern, images->describe(""));
   if (names.empty()) {
     throw Error(images->describe(""), "there are no images", "PNG, JPEG, PGM, TIFF and BMP images are looked for");
   }
   sequence.images = std::move(images);
   sequence.calibration = read_calibration(folder, options);
+  warn_about_unused_photometry(folder, sequence.calibration.photometric, sequence.warnings);
   sequence.frames = read_frames(folder, names, options, sequence.warnings);
   for (const char* name : {"groundtruth.txt", "groundtruthSync.txt"}) {
     const fs::path file = folder / name;

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "io/datasets/sequence_images.h"
 #include "io/images/image_file.h"
 #include "ldso/error.h"
 
@@ -19,7 +20,7 @@ std::string to_string(int width, int height) { return std::to_string(width) + "x
 
 Image<float> decode(const Sequence& sequence, int index) {
   const std::string& name = sequence.frames[static_cast<std::size_t>(index)].name;
-  return decode_grey_image(sequence.images->read(name), sequence.images->describe(name));
+  return decode_grey_image(sequence.images->read(name), sequence.images->describe(name), sequence.bits);
 }
 
 /// Size of the first readable image among some spread over the sequence that has the wanted size; if none has, of the
@@ -114,6 +115,8 @@ std::unique_ptr<Dataset> make_sequence_dataset(Sequence sequence) {
   }
   fit_calibration_to_images(sequence);
   warn_about_time_order(sequence);
+  warn_about_orientation(*sequence.images, sequence.frames, sequence.warnings);
+  sequence.bits = used_bits(*sequence.images, sequence.frames, sequence.warnings);
   return std::make_unique<SequenceDataset>(std::move(sequence));
 }
 

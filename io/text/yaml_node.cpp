@@ -12,7 +12,6 @@
 #include "io/text/text_file.h"
 #include "io/text/utf8.h"
 #include "ldso/error.h"
-#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -71,7 +70,7 @@ YamlNode YamlNode::parse(const std::string& text, const std::string& origin, std
 }
 
 YamlNode YamlNode::read(const std::filesystem::path& path, std::string name) {
-  std::string text = read_file(path);
+  std::string text = read_text(path);
   if (text.starts_with("%YAML:")) text.front() = '#';  // A comment.
   return parse(text, path.string(), std::move(name));
 }

@@ -91,6 +91,7 @@ Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
           {"reverse", options.reverse},
           {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
           {"fps", options.fps ? Json(*options.fps) : Json()},
+          {"pattern", options.pattern},
           {"camera", describe(calibration.camera, calibration.rectification)},
           {"calibration", calibration.description},
           {"response_known", calibration.photometric.inverse_response.has_value()},
