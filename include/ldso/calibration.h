@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ldso/image.h"
 
@@ -58,6 +59,8 @@ struct Calibration {
   PhotometricCalibration photometric;
   /// How it was read ("relative" or "absolute" intrinsics, which file), for messages.
   std::string description;
+  /// What is doubtful about it, though a camera may be like that.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace ldso

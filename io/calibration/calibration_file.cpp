@@ -9,6 +9,7 @@
 
 #include <Eigen/LU>
 
+#include "io/calibration/calibration_doubts.h"
 #include "io/images/image_file.h"
 #include "io/images/image_header.h"
 #include "io/text/text_file.h"
@@ -165,6 +166,9 @@ Rectification parse_rectification(const TextFile& file, const CameraCalibration&
     rectification.explicit_intrinsics = parse_explicit(file, mode_line);
     rectification.explicit_intrinsics.width = rectification.width;
     rectification.explicit_intrinsics.height = rectification.height;
+    const PinholeIntrinsics& wanted = rectification.explicit_intrinsics;
+    doubt_mixed_units(wanted.fx, wanted.fy, wanted.cx, wanted.cy,
+                      file.path().string() + ":" + std::to_string(mode_line.number));
     make_absolute(rectification.explicit_intrinsics);
   }
   if (rectification.mode != RectificationMode::kNone) return rectification;
@@ -231,7 +235,11 @@ Calibration read_camera_calibration(const std::filesystem::path& path) {
   calibration.camera = parse_camera(file, file.lines()[0]);
   parse_size(file, file.lines()[1], calibration.camera.width, calibration.camera.height);
   if (file.lines().size() == 5) calibration.camera.readout_ms = parse_readout(file, file.lines()[4]);
+  const CameraCalibration& c = calibration.camera;
+  const std::string first_line = path.string() + ":" + std::to_string(file.lines()[0].number);
+  doubt_mixed_units(c.fx, c.fy, c.cx, c.cy, first_line);
   const bool relative = make_absolute(calibration.camera);
+  doubt_intrinsics(c, first_line, calibration.warnings);
   calibration.rectification = parse_rectification(file, calibration.camera);
   calibration.description = path.string() + ": " + describe(calibration.camera, calibration.rectification) +
                             (relative ? ", relative intrinsics" : ", absolute intrinsics");

@@ -43,6 +43,7 @@ class VideoDataset final : public Dataset {
     if (count_ == 0) throw Error(path_.string(), "the video has no frame that can be decoded", "convert it again");
     set_times(std::move(found.seconds), options);
     check_size();
+    warnings_.insert(warnings_.end(), calibration_.warnings.begin(), calibration_.warnings.end());
     say_rotation();
     warn_about_unused_photometry(path_.parent_path(), calibration_.photometric, warnings_);
   }
