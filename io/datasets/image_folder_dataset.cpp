@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/calibration/foreign_calibration.h"
 #include "io/calibration/unused_photometry.h"
 #include "io/datasets/sequence_dataset.h"
 #include "io/images/image_names.h"
@@ -23,7 +24,7 @@ bool is_there(const fs::path& path) {
 }
 
 Calibration read_calibration(const fs::path& folder, const DatasetOptions& options) {
-  const fs::path camera = options.calibration_file.value_or(folder / "camera.txt");
+  const fs::path camera = options.calibration_file.value_or(find_calibration(folder));
   if (!is_there(camera)) {
     throw Error(camera.string(), "there is no calibration of the camera",
                 "write a camera.txt (four lines: model and intrinsics, image size, crop, output size) into the folder "

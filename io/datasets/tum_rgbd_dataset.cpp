@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/calibration/foreign_calibration.h"
 #include "io/datasets/sequence_dataset.h"
 #include "io/datasets/time_unit.h"
 #include "io/text/text_file.h"
@@ -53,7 +54,7 @@ Calibration to_calibration(const FreiburgCamera& freiburg) {
 Calibration read_calibration(const fs::path& folder, const DatasetOptions& options) {
   std::error_code error;
   if (options.calibration_file) return read_camera_calibration(*options.calibration_file);
-  if (fs::exists(folder / "camera.txt", error)) return read_camera_calibration(folder / "camera.txt");
+  if (const fs::path own = find_calibration(folder); fs::exists(own, error)) return read_camera_calibration(own);
   const fs::path normal = fs::weakly_canonical(fs::absolute(folder));
   const fs::path name = normal.has_filename() ? normal.filename() : normal.parent_path().filename();
   if (auto known = freiburg_calibration(name.string())) return *std::move(known);

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/calibration/foreign_calibration.h"
 #include "io/calibration/unused_photometry.h"
 #include "io/datasets/video_reader.h"
 #include "io/images/image_file.h"
@@ -69,7 +70,7 @@ class VideoDataset final : public Dataset {
  private:
   Calibration read_calibration(const DatasetOptions& options) const {
     std::error_code error;
-    const fs::path camera = options.calibration_file.value_or(path_.parent_path() / "camera.txt");
+    const fs::path camera = options.calibration_file.value_or(find_calibration(path_.parent_path()));
     if (!fs::exists(camera, error)) {
       throw Error(camera.string(), "there is no calibration of the camera that took the video",
                   "write a camera.txt beside the video or give one with --calib");

@@ -61,6 +61,7 @@ Json self_calibration_json(const SequenceRun& run) {
             {"cx", camera.cx},
             {"cy", camera.cy},
             {"distortion", camera.distortion},
+            {"more_distortion", camera.more_distortion},
             {"readout_ms", camera.readout_ms}}}};
 }
 
