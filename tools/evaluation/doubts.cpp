@@ -18,7 +18,7 @@ constexpr std::size_t kFewestMotions = 10;
 constexpr std::size_t kMotionsInAll = 20;
 
 /// Disagreement of rotations that is worth an explanation [deg], and the share of it that another reading may leave.
-constexpr double kLeastDisagreementDeg = 2;
+constexpr double kLeastDisagreementDeg = 0.2;
 constexpr double kExplainedShare = 0.3;
 
 /// The rotation of a line whose quaternion was read with w last, read with w first.
