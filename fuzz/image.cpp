@@ -3,6 +3,7 @@
 #include "fuzz_target.h"
 #include "io/images/image_file.h"
 #include "io/images/image_header.h"
+#include "io/images/image_orientation.h"
 
 using namespace ldso;
 
@@ -20,6 +21,8 @@ void check(const Image<float>& image, float least, float most) {
 
 LDSO_FUZZ_TARGET(image) {
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  const int orientation = exif_orientation(bytes);
+  fuzz::expect(orientation >= 1 && orientation <= 8, "an orientation is one of eight");
   const auto header = fuzz::accepted([&] { return read_image_header(bytes, "image"); });
   if (header && std::int64_t{header->width} * header->height > kMostPixelsHere) return;
   const auto image = fuzz::accepted([&] { return decode_grey_image(bytes, "image"); });

@@ -13,7 +13,7 @@ LDSO_FUZZ_TARGET(times_txt) {
   std::vector<std::string> warnings;
   for (const bool kitti : {false, true}) {
     const auto times =
-        fuzz::accepted([&] { return kitti ? read_kitti_times(path) : read_tum_mono_times(path, warnings); });
+        fuzz::accepted([&] { return kitti ? read_kitti_times(path, warnings) : read_tum_mono_times(path, warnings); });
     if (!times) continue;
     std::vector<std::string> names;
     for (const FrameTime& time : times->entries) {

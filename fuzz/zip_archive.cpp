@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fuzz_target.h"
+#include "io/images/image_names.h"
 #include "io/images/image_source.h"
 
 using namespace ldso;
@@ -12,7 +13,13 @@ LDSO_FUZZ_TARGET(zip_archive) {
   fuzz::accepted([&] {
     const auto archive = open_image_zip(path);
     const std::vector<std::string> names = archive->names();
-    fuzz::expect(std::is_sorted(names.begin(), names.end(), natural_less), "names are in order");
+    std::vector<std::string> sorted = names;
+    sort_image_names(sorted);
+    fuzz::expect(sorted == names, "names are in order");
+    for (const ImageFamily& family : image_families(names)) {
+      const auto own = [&](const std::string& name) { return matches_pattern(name, family.pattern); };
+      fuzz::expect(std::any_of(names.begin(), names.end(), own), "a kind of images has images");
+    }
     for (const std::string& name : names) {
       fuzz::accepted([&] { return archive->read(name).size(); });
     }

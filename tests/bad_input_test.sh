@@ -47,8 +47,8 @@ case $CASE in
     refused 'camera\.txt:1'
     ;;
   wrong_image_size)  # of all images, according to the calibration
-    sed -i '2s/.*/100 100/' "$damaged/camera.txt"
-    refused 'the image is [0-9]+x[0-9]+, but the calibration .*100x100'
+    sed -i '2s/.*/330 250/' "$damaged/camera.txt"
+    refused 'the image is [0-9]+x[0-9]+, but the calibration .*330x250'
     ;;
   one_image_of_another_size)
     image=$(own_image "$damaged" 25)

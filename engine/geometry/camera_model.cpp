@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "geometry/double_sphere_camera.h"
+#include "geometry/eucm_camera.h"
 #include "geometry/fov_camera.h"
 #include "geometry/kannala_brandt_camera.h"
 #include "geometry/pinhole_camera.h"
@@ -53,6 +55,7 @@ void validate(const CameraCalibration& c) {
     return;
   }
   for (const double k : c.distortion) require_finite("a distortion coefficient", k);
+  for (const double k : c.more_distortion) require_finite("a distortion coefficient", k);
 }
 
 }  // namespace
@@ -100,8 +103,12 @@ std::unique_ptr<CameraModel> make_camera_model(const CameraCalibration& calibrat
       return std::make_unique<RadTanCamera>(calibration);
     case CameraModelKind::kKannalaBrandt:
       return std::make_unique<KannalaBrandtCamera>(calibration);
+    case CameraModelKind::kDoubleSphere:
+      return std::make_unique<DoubleSphereCamera>(calibration);
+    case CameraModelKind::kEucm:
+      return std::make_unique<EucmCamera>(calibration);
   }
-  fail_calibration("unknown camera model", "use Pinhole, FOV, RadTan or KannalaBrandt");
+  fail_calibration("unknown camera model", "use Pinhole, FOV, RadTan, KannalaBrandt, DoubleSphere or EUCM");
 }
 
 }  // namespace ldso

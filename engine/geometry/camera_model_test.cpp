@@ -33,6 +33,12 @@ CameraCalibration calibration(CameraModelKind model, int width, int height, cons
   return {model, width, height, intrinsics[0], intrinsics[1], intrinsics[2], intrinsics[3], distortion};
 }
 
+/// RadTan with OpenCV's k3 and denominator.
+CameraCalibration with_more(CameraCalibration camera, const std::array<double, 4>& more) {
+  camera.more_distortion = more;
+  return camera;
+}
+
 /// Calibrations of public data sets, and the corners of each model.
 std::vector<Case> cases() {
   const std::array<double, 4> tum_mono{0.349153 * 1280, 0.436593 * 1024, 0.493140 * 1280 - 0.5, 0.499021 * 1024 - 0.5};
@@ -53,7 +59,29 @@ std::vector<Case> cases() {
        calibration(CameraModelKind::kKannalaBrandt, 512, 512, {190.97847715, 190.97330716, 254.93170606, 256.8974428},
                    {0.0034823894, 0.00071500348, -0.0020532361, 0.00020293673}),
        0.7},
+      {"radtan_k3",  // of the camera of TUM RGB-D's freiburg1
+       with_more(calibration(CameraModelKind::kRadTan, 640, 480, {517.306408, 516.469215, 318.643040, 255.313989},
+                             {0.262383, -0.953104, -0.005358, 0.002628}),
+                 {1.163314, 0, 0, 0})},
+      {"radtan_ratio",  // of an Azure Kinect's colour camera
+       with_more(calibration(CameraModelKind::kRadTan, 1280, 720, {605.4, 605.2, 639.1, 366.9},
+                             {0.4466, -2.5836, 0.00088, -0.00024}),
+                 {1.5156, 0.3263, -2.4094, 1.4435})},
+      {"double_sphere",  // of TUM-VI
+       calibration(CameraModelKind::kDoubleSphere, 512, 512, {158.28600, 158.28600, 254.5, 255.2},
+                   {-0.172154, 0.593344, 0, 0}),
+       0.7},
+      {"double_sphere_narrow",
+       calibration(CameraModelKind::kDoubleSphere, 640, 480, {400, 401, 320, 240}, {0.2, 0.3, 0, 0})},
+      {"eucm", calibration(CameraModelKind::kEucm, 512, 512, {190.2, 190.1, 254.9, 256.8}, {0.63, 1.04, 0, 0}), 0.7},
+      {"eucm_narrow", calibration(CameraModelKind::kEucm, 640, 480, {400, 401, 320, 240}, {0.4, 0.9, 0, 0})},
+      {"eucm_zero", calibration(CameraModelKind::kEucm, 640, 480, {400, 401, 320, 240}, {0, 1, 0, 0})},
   };
+}
+
+bool sees_behind(CameraModelKind model) {
+  return model == CameraModelKind::kKannalaBrandt || model == CameraModelKind::kDoubleSphere ||
+         model == CameraModelKind::kEucm;
 }
 
 class CameraModelTest : public testing::TestWithParam<Case> {
@@ -206,6 +234,33 @@ TEST(RadTanCameraTest, FollowsTheFormula) {
   EXPECT_LT((camera->project({x, y, 1}) - expected).norm(), 1e-15);
 }
 
+TEST(RadTanCameraTest, FollowsOpenCvsFormulaWithEightCoefficients) {
+  const double k1 = 0.4, k2 = -2.5, p1 = 0.01, p2 = -0.02, k3 = 1.5, k4 = 0.3, k5 = -2.4, k6 = 1.4;
+  const double x = 0.2, y = -0.3, r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  const auto camera = make_camera_model(
+      with_more(calibration(CameraModelKind::kRadTan, 640, 480, {1, 1, 0, 0}, {k1, k2, p1, p2}), {k3, k4, k5, k6}));
+  const double factor = (1 + k1 * r2 + k2 * r4 + k3 * r6) / (1 + k4 * r2 + k5 * r4 + k6 * r6);
+  const Eigen::Vector2d expected(x * factor + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+                                 y * factor + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y);
+  EXPECT_LT((camera->project({x, y, 1}) - expected).norm(), 1e-15);
+}
+
+TEST(DoubleSphereCameraTest, FollowsTheFormulaAndIsTheUnifiedModelWithoutItsSecondSphere) {
+  const double xi = -0.2, alpha = 0.6;
+  const Eigen::Vector3d p(0.7, -0.4, 0.9);
+  const auto model = [](CameraModelKind kind, double a, double b) {
+    return make_camera_model(calibration(kind, 640, 480, {1, 1, 0, 0}, {a, b, 0, 0}));
+  };
+  const double z2 = xi * p.norm() + p.z();
+  const double d2 = std::hypot(p.x(), p.y(), z2);
+  const Eigen::Vector2d expected = p.head<2>() / (alpha * d2 + (1 - alpha) * z2);
+  EXPECT_LT((model(CameraModelKind::kDoubleSphere, xi, alpha)->project(p) - expected).norm(), 1e-15);
+  EXPECT_LT((model(CameraModelKind::kDoubleSphere, 0, alpha)->project(p) -
+             model(CameraModelKind::kEucm, alpha, 1)->project(p))
+                .norm(),
+            1e-15);
+}
+
 TEST(RadTanCameraTest, NothingBeyondTheTurningPoint) {
   // g(r) = r - 0.3 r^3 grows up to r = 1.054, where it is 0.7027.
   const auto camera = make_camera_model(calibration(CameraModelKind::kRadTan, 640, 480, {100, 100, 0, 0}, {-0.3}));
@@ -269,7 +324,7 @@ TEST(CameraModelDomainTest, PointsBehindThePerspectiveModelsAreOutside) {
     EXPECT_FALSE(has_pixel(*camera, {0.1, 0.1, std::numeric_limits<double>::quiet_NaN()})) << c.name;
     EXPECT_FALSE(camera->unproject({std::numeric_limits<double>::infinity(), 0}).has_value()) << c.name;
     EXPECT_FALSE(has_pixel(*camera, {0, 0, -1})) << c.name;
-    if (c.calibration.model == CameraModelKind::kKannalaBrandt) continue;
+    if (sees_behind(c.calibration.model)) continue;
     EXPECT_FALSE(has_pixel(*camera, {0.1, 0.1, 0})) << c.name;
     EXPECT_TRUE(camera->project({0.1, 0.1, -2}).array().isNaN().all()) << c.name;
   }

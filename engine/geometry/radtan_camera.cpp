@@ -7,21 +7,20 @@ namespace ldso {
 
 RadTanCamera::RadTanCamera(const CameraCalibration& calibration)
     : CameraModel(calibration),
-      radial_({calibration.distortion[0], calibration.distortion[1], 0, 0}),
+      radial_(calibration.distortion[0], calibration.distortion[1], calibration.more_distortion),
       p1_(calibration.distortion[2]),
       p2_(calibration.distortion[3]) {}
 
 Eigen::Vector2d RadTanCamera::distort_plane(const Eigen::Vector2d& m, Eigen::Matrix2d& J) const {
-  const double k1 = calibration().distortion[0];
-  const double k2 = calibration().distortion[1];
   const double x = m.x(), y = m.y();
   const double r2 = m.squaredNorm();
-  const double radial = 1 + r2 * (k1 + r2 * k2);
-  const double slope = 2 * (k1 + 2 * r2 * k2);  // (d radial / d x) / x
+  const RadialFactor::Value radial = radial_.at(r2);
+  const double slope = 2 * radial.slope;  // (d factor / d x) / x
   const double mixed = slope * x * y + 2 * (p1_ * x + p2_ * y);
-  J << radial + slope * x * x + 2 * p1_ * y + 6 * p2_ * x, mixed, mixed,
-      radial + slope * y * y + 6 * p1_ * y + 2 * p2_ * x;
-  return {x * radial + 2 * p1_ * x * y + p2_ * (r2 + 2 * x * x), y * radial + p1_ * (r2 + 2 * y * y) + 2 * p2_ * x * y};
+  J << radial.factor + slope * x * x + 2 * p1_ * y + 6 * p2_ * x, mixed, mixed,
+      radial.factor + slope * y * y + 6 * p1_ * y + 2 * p2_ * x;
+  return {x * radial.factor + 2 * p1_ * x * y + p2_ * (r2 + 2 * x * x),
+          y * radial.factor + p1_ * (r2 + 2 * y * y) + 2 * p2_ * x * y};
 }
 
 bool RadTanCamera::in_plane_domain(const Eigen::Vector2d& m, const Eigen::Matrix2d& J) const {
@@ -38,7 +37,9 @@ bool RadTanCamera::distort(const Eigen::Vector3d& p, Eigen::Vector2d& m, Matrix2
   if (J_point) J_point->applyOnTheLeft(J_plane);
   if (J_distortion) {
     const double x = u.x(), y = u.y(), r2 = u.squaredNorm();
-    *J_distortion << x * r2, x * r2 * r2, 2 * x * y, r2 + 2 * x * x, y * r2, y * r2 * r2, r2 + 2 * y * y, 2 * x * y;
+    const double below = radial_.at(r2).denominator;
+    *J_distortion << x * r2 / below, x * r2 * r2 / below, 2 * x * y, r2 + 2 * x * x, y * r2 / below,
+        y * r2 * r2 / below, r2 + 2 * y * y, 2 * x * y;
   }
   return true;
 }

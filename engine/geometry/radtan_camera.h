@@ -1,14 +1,14 @@
 #pragma once
 
-// The radial-tangential lens model (Brown-Conrady with k1, k2, p1, p2), as OpenCV and EuRoC use it.
-// The radial polynomial grows only up to some radius; beyond it, a point would land on a pixel that
-// belongs to another point, so those points are outside of the domain.
+// The radial-tangential lens model (Brown-Conrady with k1, k2, p1, p2), as OpenCV and EuRoC use it, with OpenCV's k3
+// and the denominator with k4, k5, k6 if they are given. The radial part grows only up to some radius; beyond it, a
+// point would land on a pixel that belongs to another point, so those points are outside of the domain.
 
 #include <Eigen/Core>
 #include <optional>
 
 #include "geometry/camera_model.h"
-#include "geometry/odd_polynomial.h"
+#include "geometry/radial_factor.h"
 
 namespace ldso {
 
@@ -27,7 +27,7 @@ class RadTanCamera : public CameraModel {
   Eigen::Vector2d initial_guess(const Eigen::Vector2d& distorted) const;
   bool in_plane_domain(const Eigen::Vector2d& m, const Eigen::Matrix2d& J) const;
 
-  const OddPolynomial radial_;
+  const RadialFactor radial_;
   const double p1_, p2_;
 };
 

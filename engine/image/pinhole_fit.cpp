@@ -259,9 +259,13 @@ bool is_pinhole(const CameraCalibration& camera) {
     case CameraModelKind::kFov:
       return camera.distortion[0] == 0;
     case CameraModelKind::kRadTan:
-      return std::all_of(camera.distortion.begin(), camera.distortion.end(), is_zero);
+      return std::all_of(camera.distortion.begin(), camera.distortion.end(), is_zero) &&
+             std::all_of(camera.more_distortion.begin(), camera.more_distortion.end(), is_zero);
     case CameraModelKind::kKannalaBrandt:
       return false;  // equidistant even with zeros
+    case CameraModelKind::kDoubleSphere:
+    case CameraModelKind::kEucm:
+      return false;  // nobody calibrates these to be a pinhole
   }
   return false;
 }

@@ -3,15 +3,17 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ldso/image.h"
 
 namespace ldso {
 
-enum class CameraModelKind { kPinhole, kFov, kRadTan, kKannalaBrandt };
+enum class CameraModelKind { kPinhole, kFov, kRadTan, kKannalaBrandt, kDoubleSphere, kEucm };
 
 /// Intrinsics of the camera as it took the images, in absolute pixels (pixel centres at integers).
-/// `distortion`: FOV: omega; RadTan: k1 k2 p1 p2; Kannala-Brandt: k1 k2 k3 k4; pinhole: unused.
+/// `distortion`: FOV: omega; RadTan: k1 k2 p1 p2; Kannala-Brandt: k1 k2 k3 k4; double sphere: xi alpha; EUCM (enhanced
+/// unified): alpha beta; pinhole: unused.
 struct CameraCalibration {
   CameraModelKind model = CameraModelKind::kPinhole;
   int width = 0;
@@ -20,6 +22,9 @@ struct CameraCalibration {
   std::array<double, 4> distortion{};
   double readout_ms =
       0;  ///< Rolling shutter: time from the first row to the last; negative: upwards. 0: global shutter.
+  /// RadTan alone: k3, and k4 k5 k6 of the denominator, as OpenCV has them. They are kept as given where a run corrects
+  /// the others.
+  std::array<double, 4> more_distortion{};
 };
 
 /// How the images are resampled to a pinhole image.
@@ -58,6 +63,8 @@ struct Calibration {
   PhotometricCalibration photometric;
   /// How it was read ("relative" or "absolute" intrinsics, which file), for messages.
   std::string description;
+  /// What is doubtful about it, though a camera may be like that.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace ldso

@@ -9,6 +9,9 @@
 
 #include <Eigen/LU>
 
+#include "io/calibration/calibration_doubts.h"
+#include "io/calibration/foreign_calibration.h"
+#include "io/calibration/lens.h"
 #include "io/images/image_file.h"
 #include "io/images/image_header.h"
 #include "io/text/text_file.h"
@@ -31,19 +34,22 @@ struct ModelLayout {
   const char* expected;
 };
 
-constexpr std::array<ModelLayout, 5> kModels{{
+constexpr std::array<ModelLayout, 7> kModels{{
     {"FOV", CameraModelKind::kFov, 1, "FOV fx fy cx cy omega"},
     {"Pinhole", CameraModelKind::kPinhole, 1, "Pinhole fx fy cx cy 0"},
-    {"RadTan", CameraModelKind::kRadTan, 4, "RadTan fx fy cx cy k1 k2 p1 p2"},
+    {"RadTan", CameraModelKind::kRadTan, 4, "RadTan fx fy cx cy k1 k2 p1 p2`, with `k3` or `k3 k4 k5 k6` behind it"},
     {"KannalaBrandt", CameraModelKind::kKannalaBrandt, 4, "KannalaBrandt fx fy cx cy k1 k2 k3 k4"},
     {"EquiDistant", CameraModelKind::kKannalaBrandt, 4, "EquiDistant fx fy cx cy k1 k2 k3 k4"},
+    {"DoubleSphere", CameraModelKind::kDoubleSphere, 2, "DoubleSphere fx fy cx cy xi alpha"},
+    {"EUCM", CameraModelKind::kEucm, 2, "EUCM fx fy cx cy alpha beta"},
 }};
 
 /// By RectificationMode.
 constexpr std::array<const char*, 4> kModes{"none", "crop", "full", "explicit"};
 
 constexpr const char* kKnownModels =
-    "`fx fy cx cy omega` or one of FOV, Pinhole, RadTan, KannalaBrandt, EquiDistant with its parameters is expected";
+    "`fx fy cx cy omega` or one of FOV, Pinhole, RadTan, KannalaBrandt, EquiDistant, DoubleSphere, EUCM with its "
+    "parameters is expected";
 
 const ModelLayout& layout_of(CameraModelKind kind) {
   return *std::find_if(kModels.begin(), kModels.end(), [=](const ModelLayout& layout) { return layout.kind == kind; });
@@ -74,16 +80,22 @@ void check_distortion(const TextFile& file, const TextLine& line, CameraCalibrat
   if (camera.model == CameraModelKind::kFov && (omega < 0 || omega >= kMostOmega)) {
     file.fail(line, "omega is " + std::to_string(omega), "the field of view in radians is expected, 0 <= omega < pi");
   }
-  const bool zero = camera.distortion == std::array<double, 4>{};
-  if (zero && camera.model != CameraModelKind::kKannalaBrandt) camera.model = CameraModelKind::kPinhole;
+  check_spheres(camera, file.path().string() + ":" + std::to_string(line.number));
+  simplify(camera);
+}
+
+/// How many numbers behind fx fy cx cy a model may have.
+bool takes(const ModelLayout& layout, std::size_t count) {
+  if (layout.kind == CameraModelKind::kPinhole && count == 0) return true;
+  if (layout.kind == CameraModelKind::kRadTan && (count == 5 || count == 8)) return true;
+  return count == static_cast<std::size_t>(layout.parameters);
 }
 
 CameraCalibration parse_camera(const TextFile& file, const TextLine& line) {
   std::size_t first = 0;
   const ModelLayout& layout = layout_of(file, line, first);
   const std::size_t count = line.fields.size() - first;
-  const bool pinhole_without_zero = layout.kind == CameraModelKind::kPinhole && count == 4;
-  if (count != static_cast<std::size_t>(4 + layout.parameters) && !pinhole_without_zero) {
+  if (count < 4 || !takes(layout, count - 4)) {
     file.fail(line, "the " + std::string(layout.name) + " model has " + std::to_string(count) + " numbers",
               "expected `" + std::string(layout.expected) + "`");
   }
@@ -93,7 +105,8 @@ CameraCalibration parse_camera(const TextFile& file, const TextLine& line) {
   camera.fy = file.finite_number(line, first + 1);
   camera.cx = file.finite_number(line, first + 2);
   camera.cy = file.finite_number(line, first + 3);
-  for (std::size_t i = 4; i < count; ++i) camera.distortion[i - 4] = file.finite_number(line, first + i);
+  for (std::size_t i = 4; i < count; ++i)
+    (i < 8 ? camera.distortion[i - 4] : camera.more_distortion[i - 8]) = file.finite_number(line, first + i);
   if (!(camera.fx > 0 && camera.fy > 0)) {
     file.fail(line, "a focal length is not positive", "expected `" + std::string(layout.expected) + "`");
   }
@@ -165,6 +178,9 @@ Rectification parse_rectification(const TextFile& file, const CameraCalibration&
     rectification.explicit_intrinsics = parse_explicit(file, mode_line);
     rectification.explicit_intrinsics.width = rectification.width;
     rectification.explicit_intrinsics.height = rectification.height;
+    const PinholeIntrinsics& wanted = rectification.explicit_intrinsics;
+    doubt_mixed_units(wanted.fx, wanted.fy, wanted.cx, wanted.cy,
+                      file.path().string() + ":" + std::to_string(mode_line.number));
     make_absolute(rectification.explicit_intrinsics);
   }
   if (rectification.mode != RectificationMode::kNone) return rectification;
@@ -200,6 +216,9 @@ std::string camera_file_text(const Calibration& calibration) {
   const ModelLayout& layout = layout_of(camera.model);
   out << layout.name << ' ' << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy;
   for (int i = 0; i < layout.parameters; ++i) out << ' ' << camera.distortion.at(static_cast<std::size_t>(i));
+  if (camera.more_distortion != std::array<double, 4>{}) {
+    for (const double k : camera.more_distortion) out << ' ' << k;
+  }
   out << '\n' << camera.width << ' ' << camera.height << '\n';
   if (rectification.mode == RectificationMode::kExplicit) {
     out << wanted.fx << ' ' << wanted.fy << ' ' << wanted.cx << ' ' << wanted.cy << " 0\n";
@@ -220,6 +239,7 @@ std::string describe(const CameraCalibration& camera, const Rectification& recti
 }
 
 Calibration read_camera_calibration(const std::filesystem::path& path) {
+  if (auto foreign = read_foreign_calibration(path)) return *std::move(foreign);
   const TextFile file(path);
   if (file.lines().size() < 4) {
     throw Error(path.string(), "has " + std::to_string(file.lines().size()) + " lines, four are expected",
@@ -231,7 +251,11 @@ Calibration read_camera_calibration(const std::filesystem::path& path) {
   calibration.camera = parse_camera(file, file.lines()[0]);
   parse_size(file, file.lines()[1], calibration.camera.width, calibration.camera.height);
   if (file.lines().size() == 5) calibration.camera.readout_ms = parse_readout(file, file.lines()[4]);
+  const CameraCalibration& c = calibration.camera;
+  const std::string first_line = path.string() + ":" + std::to_string(file.lines()[0].number);
+  doubt_mixed_units(c.fx, c.fy, c.cx, c.cy, first_line);
   const bool relative = make_absolute(calibration.camera);
+  doubt_intrinsics(c, first_line, calibration.warnings);
   calibration.rectification = parse_rectification(file, calibration.camera);
   calibration.description = path.string() + ": " + describe(calibration.camera, calibration.rectification) +
                             (relative ? ", relative intrinsics" : ", absolute intrinsics");

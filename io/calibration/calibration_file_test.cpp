@@ -69,6 +69,36 @@ TEST_F(CameraFile, NamedModelsTakeTheirParameters) {
   }
 }
 
+TEST_F(CameraFile, RadTanMayHaveFiveOrEightCoefficients) {
+  const Calibration five = read("RadTan 525 526 319.5 239.5 0.1 -0.2 0.003 0.004 0.05\n640 480\ncrop\n640 480\n");
+  EXPECT_EQ(five.camera.distortion, (std::array<double, 4>{0.1, -0.2, 0.003, 0.004}));
+  EXPECT_EQ(five.camera.more_distortion, (std::array<double, 4>{0.05, 0, 0, 0}));
+  const Calibration eight =
+      read("RadTan 525 526 319.5 239.5 0.1 -0.2 0.003 0.004 0.05 0.06 0.07 0.08\n640 480\ncrop\n640 480\n");
+  EXPECT_EQ(eight.camera.more_distortion, (std::array<double, 4>{0.05, 0.06, 0.07, 0.08}));
+  const Calibration again = read(camera_file_text(eight));
+  EXPECT_EQ(again.camera.more_distortion, eight.camera.more_distortion);
+  EXPECT_NE(error("RadTan 525 526 319.5 239.5 0.1 -0.2 0.003 0.004 0.05 0.06\n640 480\ncrop\n640 480\n")
+                .find("has 10 numbers; expected `RadTan fx fy cx cy k1 k2 p1 p2`"),
+            std::string::npos);
+}
+
+TEST_F(CameraFile, SpheresAreReadAndWritten) {
+  const Calibration ds = read("DoubleSphere 158 158 254.5 255.2 -0.17 0.59\n512 512\ncrop\n512 512\n");
+  EXPECT_EQ(ds.camera.model, CameraModelKind::kDoubleSphere);
+  EXPECT_EQ(read(camera_file_text(ds)).camera.distortion, (std::array<double, 4>{-0.17, 0.59, 0, 0}));
+  EXPECT_EQ(read("EUCM 190 190 254 256 0.6 1.1\n512 512\ncrop\n512 512\n").camera.model, CameraModelKind::kEucm);
+  EXPECT_NE(error("EUCM 190 190 254 256 1.6 1.1\n512 512\ncrop\n512 512\n").find("camera.txt:1: the EUCM's alpha"),
+            std::string::npos);
+}
+
+TEST_F(CameraFile, MayHaveCommentsBehindItsValues) {
+  const Calibration r =
+      read("# my camera\nPinhole 525 526 319.5 239.5 0  # fx fy cx cy\n640 480 # size\ncrop #\n640 480\n");
+  EXPECT_EQ(r.camera.fy, 526);
+  EXPECT_EQ(r.rectification.mode, RectificationMode::kCrop);
+}
+
 TEST_F(CameraFile, ExplicitIntrinsicsAreRelativeToTheOutputSize) {
   const Calibration a = read("FOV 500 501 319.5 239.5 0.9\n640 480\n0.4 0.5 0.5 0.5 0\n320 240\n");
   ASSERT_EQ(a.rectification.mode, RectificationMode::kExplicit);

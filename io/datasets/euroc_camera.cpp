@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/calibration/calibration_doubts.h"
 #include "io/images/image_header.h"
 #include "io/text/yaml_node.h"
 #include "ldso/io/calibration_file.h"
@@ -65,6 +66,7 @@ EurocCamera read_euroc_camera(const std::filesystem::path& path) {
     std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
     result.calibration.rectification.mode = RectificationMode::kCrop;
   }
+  doubt_intrinsics(camera, yaml.at("intrinsics").where(), result.calibration.warnings);
   result.T_body_camera = read_T_body_camera(yaml.at("T_BS").at("data"));
   result.calibration.description = path.string() + ": " + describe(camera, result.calibration.rectification);
   return result;

@@ -62,6 +62,9 @@ std::unique_ptr<Dataset> open_euroc(const fs::path& folder, const DatasetOptions
   EurocCamera camera;
   const fs::path sensor = mav / "cam0" / "sensor.yaml";
   const bool has_sensor = fs::exists(sensor, error);
+  if (!has_sensor && !options.calibration_file)
+    throw Error(sensor.string(), "there is no calibration of the camera",
+                "write this file or give another with --calib");
   if (has_sensor || !options.calibration_file) camera = read_euroc_camera(sensor);
   sequence.calibration = std::move(camera.calibration);
   if (options.calibration_file) sequence.calibration = read_camera_calibration(*options.calibration_file);

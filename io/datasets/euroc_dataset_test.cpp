@@ -71,5 +71,12 @@ TEST(EurocDataset, BadListOfImagesIsAnError) {
   EXPECT_NE(error_of([&] { open_euroc(folder.path(), {}); }).find("there are no images"), std::string::npos);
 }
 
+TEST(EurocDataset, WithoutSensorFileNeedsACalibration) {
+  const TemporaryFolder folder;
+  make_euroc(folder.path(), 2);
+  fs::remove(folder / "mav0/cam0/sensor.yaml");
+  EXPECT_NE(error_of([&] { open_euroc(folder.path(), {}); }).find("--calib"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ldso

@@ -1,11 +1,14 @@
 #include "io/datasets/frame_times.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
 
+#include "io/datasets/time_unit.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "util/format_text.h"
 
 namespace ldso {
 namespace {
@@ -75,6 +78,49 @@ std::vector<FrameEntry> join_by_order(const std::vector<std::string>& names, con
   return frames;
 }
 
+void to_seconds(FrameTimes& times, std::vector<std::string>& warnings) {
+  std::vector<double> values;
+  for (const FrameTime& entry : times.entries) values.push_back(entry.timestamp);
+  convert_to_seconds(values, times.path, warnings);
+  for (std::size_t i = 0; i < values.size(); ++i) times.entries[i].timestamp = values[i];
+}
+
+/// Whole numbers of names or ids, in order: nothing if one has none, or if they are not `first`, `first` + 1, ...
+std::optional<double> first_of_run(const std::vector<std::string>& stems) {
+  std::vector<double> numbers;
+  for (const std::string& stem : stems) {
+    double value = 0;
+    const auto number = number_of(stem);
+    if (!number || !parse_number(*number, value) || !std::isfinite(value)) return std::nullopt;
+    numbers.push_back(value);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] != numbers.front() + static_cast<double>(i)) return std::nullopt;
+  }
+  return numbers.empty() ? std::nullopt : std::optional(numbers.front());
+}
+
+/// Where images and ids are both counted without a gap, but from different numbers.
+struct ShiftedIds {
+  double first_image = 0, first_id = 0;
+};
+
+std::optional<ShiftedIds> find_shift(const std::vector<std::string>& names, const FrameTimes& times) {
+  std::vector<std::string> stems;
+  for (const std::string& name : names) stems.push_back(std::filesystem::path(name).stem().string());
+  std::vector<std::string> ids;
+  for (const FrameTime& time : times.entries) ids.push_back(time.id);
+  const auto image = first_of_run(stems);
+  const auto id = first_of_run(ids);
+  return image && id && *image != *id ? std::optional(ShiftedIds{*image, *id}) : std::nullopt;
+}
+
+std::string describe_shift(const ShiftedIds& shift) {
+  return "the images are counted from " + format_text("%.0f", shift.first_image) + ", the ids from " +
+         format_text("%.0f", shift.first_id);
+}
+
 }  // namespace
 
 FrameTimes read_tum_mono_times(const std::filesystem::path& path, std::vector<std::string>& warnings) {
@@ -93,10 +139,11 @@ FrameTimes read_tum_mono_times(const std::filesystem::path& path, std::vector<st
                        " exposure times (the first in this line) are NaN, zero or negative; the exposure of these "
                        "frames counts as unknown");
   }
+  to_seconds(times, warnings);
   return times;
 }
 
-FrameTimes read_kitti_times(const std::filesystem::path& path) {
+FrameTimes read_kitti_times(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   const TextFile file(path);
   FrameTimes times{path, {}, false};
   for (const TextLine& line : file.lines()) {
@@ -105,6 +152,7 @@ FrameTimes read_kitti_times(const std::filesystem::path& path) {
     }
     times.entries.push_back({std::to_string(times.entries.size()), file.finite_number(line, 0), std::nullopt});
   }
+  to_seconds(times, warnings);
   return times;
 }
 
@@ -115,7 +163,19 @@ std::vector<FrameEntry> match_times(const std::vector<std::string>& names, const
   std::vector<FrameEntry> by_id = join_by_id(names, times);
   const std::string counts =
       std::to_string(names.size()) + " images and " + std::to_string(times.entries.size()) + " lines of times";
-  // Ids that fit in part only, counted from 1 for instance, are less trustworthy than the order.
+  const bool some_have_none = by_id.size() < std::min(names.size(), times.entries.size());
+  const auto shift = some_have_none && times.ids_are_written ? find_shift(names, times) : std::nullopt;
+  if (same_number && shift) {
+    warnings.push_back(times.path.string() + ": " + describe_shift(*shift) +
+                       ", and there are as many: the first image has the first time, and so on");
+    return join_by_order(names, times);
+  }
+  if (shift && !by_id.empty() && std::abs(shift->first_image - shift->first_id) == 1) {
+    throw Error(times.path.string(),
+                "there are " + counts + ", and " + describe_shift(*shift) + ": which belong together cannot be told",
+                "give as many lines as images, or number both alike");
+  }
+  // Ids that fit in part only are less trustworthy than the order.
   if (same_number && by_id.size() * 2 < names.size()) return join_by_order(names, times);
   if (by_id.empty()) {
     throw Error(times.path.string(), "there are " + counts + ", and the image names do not carry the ids",

@@ -30,14 +30,17 @@ struct FrameTimes {
 };
 
 /// `id timestamp [exposure_ms]` a line. An exposure that is NaN, infinite, zero or negative is unknown; one warning
-/// counts them. Throws Error naming file and line if a line is not of this form.
+/// counts them. Times in milliseconds, microseconds or nanoseconds are converted, with a warning. Throws Error naming
+/// file and line if a line is not of this form.
 FrameTimes read_tum_mono_times(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
-/// A timestamp [s] a line.
-FrameTimes read_kitti_times(const std::filesystem::path& path);
+/// A timestamp a line, converted to seconds as above.
+FrameTimes read_kitti_times(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
 /// Joins images and times, by the ids that the image names carry (equal names or equal numbers) or else by order.
-/// If they differ in number, those with equal ids are used and a warning counts the rest; without common ids: Error.
+/// If both are counted without a gap, but from different numbers (images from 1, ids from 0), the order counts where
+/// there are as many; where not, what belongs together cannot be told, which is an Error. If they differ in number,
+/// those with equal ids are used and a warning counts the rest; without common ids: Error.
 std::vector<FrameEntry> match_times(const std::vector<std::string>& names, const FrameTimes& times,
                                     std::vector<std::string>& warnings);
 

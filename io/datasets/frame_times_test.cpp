@@ -74,6 +74,36 @@ TEST_F(TimesFile, OfAnotherLengthWithoutCommonIdsIsAnError) {
   EXPECT_NE(message.find("3 images and 2 lines of times"), std::string::npos) << message;
 }
 
+TEST_F(TimesFile, IdsCountedFromZeroForImagesCountedFromOneGoByOrder) {
+  for (const int shift : {1, 2}) {
+    warnings_.clear();
+    std::vector<std::string> names;
+    for (int i = 0; i < 5; ++i) names.push_back("0000" + std::to_string(i + shift) + ".png");
+    const auto frames = match(names, "0 0.0\n1 0.1\n2 0.2\n3 0.3\n4 0.4\n");
+    ASSERT_EQ(frames.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(frames[i].timestamp, 0.1 * static_cast<double>(i));
+    ASSERT_EQ(warnings_.size(), 1U);
+    EXPECT_NE(warnings_[0].find("counted from " + std::to_string(shift) + ", the ids from 0"), std::string::npos);
+  }
+}
+
+TEST_F(TimesFile, IdsCountedFromAnotherNumberThatAreNotAsManyAreAnError) {
+  const std::string message = error_of([&] { match({"1.png", "2.png", "3.png", "4.png"}, "0 0.0\n1 0.1\n2 0.2\n"); });
+  EXPECT_NE(message.find("counted from 1, the ids from 0"), std::string::npos) << message;
+  // Each image has its line: nothing is doubtful.
+  EXPECT_EQ(match({"1.png", "2.png"}, "0 0.0\n1 0.1\n2 0.2\n")[0].timestamp, 0.1);
+}
+
+TEST_F(TimesFile, TimesInOtherUnitsBecomeSeconds) {
+  EXPECT_DOUBLE_EQ(read("0 100\n1 133\n2 167\n").entries[1].timestamp, 0.133);
+  ASSERT_EQ(warnings_.size(), 1U);
+  EXPECT_NE(warnings_[0].find("milliseconds"), std::string::npos) << warnings_[0];
+  EXPECT_DOUBLE_EQ(read("0 100000\n1 133000\n2 167000\n").entries[1].timestamp, 0.133);
+  EXPECT_DOUBLE_EQ(read("0 1403715273262142976\n1 1403715273312143104\n").entries[1].timestamp, 1403715273.3121431);
+  write_text(folder_ / "times.txt", "0\n33000000\n67000000\n");
+  EXPECT_DOUBLE_EQ(read_kitti_times(folder_ / "times.txt", warnings_).entries[1].timestamp, 0.033);
+}
+
 TEST_F(TimesFile, LongIdsOfNanosecondsMatch) {
   const auto frames = match({"1403715273262142976.png", "1403715273312143104.png"},
                             "1403715273262142976 1403715273.262\n1403715273312143104 1403715273.312\n");
@@ -82,7 +112,7 @@ TEST_F(TimesFile, LongIdsOfNanosecondsMatch) {
 
 TEST_F(TimesFile, KittiTimesGoByOrderOrElseByTheNumberInTheName) {
   write_text(folder_ / "times.txt", "0.0\n0.1\n0.2\n");
-  const FrameTimes times = read_kitti_times(folder_ / "times.txt");
+  const FrameTimes times = read_kitti_times(folder_ / "times.txt", warnings_);
   const auto excerpt = match_times({"000100.png", "000101.png", "000102.png"}, times, warnings_);
   EXPECT_EQ(excerpt[2].timestamp, 0.2);
   EXPECT_TRUE(warnings_.empty());
@@ -90,7 +120,8 @@ TEST_F(TimesFile, KittiTimesGoByOrderOrElseByTheNumberInTheName) {
   EXPECT_EQ(part[0].timestamp, 0.1);
   EXPECT_EQ(warnings_.size(), 1U);
   write_text(folder_ / "times.txt", "0 0.0\n");
-  EXPECT_NE(error_of([&] { read_kitti_times(folder_ / "times.txt"); }).find("times.txt:1"), std::string::npos);
+  EXPECT_NE(error_of([&] { read_kitti_times(folder_ / "times.txt", warnings_); }).find("times.txt:1"),
+            std::string::npos);
 }
 
 TEST_F(TimesFile, RateGivesTimes) {

@@ -4,7 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/calibration/foreign_calibration.h"
+#include "io/calibration/unused_photometry.h"
 #include "io/datasets/sequence_dataset.h"
+#include "io/images/image_names.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 
@@ -21,7 +24,7 @@ bool is_there(const fs::path& path) {
 }
 
 Calibration read_calibration(const fs::path& folder, const DatasetOptions& options) {
-  const fs::path camera = options.calibration_file.value_or(folder / "camera.txt");
+  const fs::path camera = options.calibration_file.value_or(find_calibration(folder));
   if (!is_there(camera)) {
     throw Error(camera.string(), "there is no calibration of the camera",
                 "write a camera.txt (four lines: model and intrinsics, image size, crop, output size) into the folder "
@@ -59,12 +62,13 @@ std::unique_ptr<Dataset> open_images_with_text_files(const std::string& format_n
   Sequence sequence;
   sequence.format_name = format_name;
   sequence.location = folder.string();
-  const std::vector<std::string> names = images->names();
+  const std::vector<std::string> names = choose_images(images->names(), options.pattern, images->describe(""));
   if (names.empty()) {
     throw Error(images->describe(""), "there are no images", "PNG, JPEG, PGM, TIFF and BMP images are looked for");
   }
   sequence.images = std::move(images);
   sequence.calibration = read_calibration(folder, options);
+  warn_about_unused_photometry(folder, sequence.calibration.photometric, sequence.warnings);
   sequence.frames = read_frames(folder, names, options, sequence.warnings);
   for (const char* name : {"groundtruth.txt", "groundtruthSync.txt"}) {
     const fs::path file = folder / name;

@@ -14,7 +14,7 @@ namespace ldso {
 
 bool is_image_folder(const std::filesystem::path& folder);
 
-/// Opens it; only the options calibration_file and fps are used. Throws Error.
+/// Opens it; only the options calibration_file, fps and pattern are used. Throws Error.
 std::unique_ptr<Dataset> open_image_folder_dataset(const std::filesystem::path& folder, const DatasetOptions& options);
 
 /// Images of any source with the files named above in `folder`: shared with the TUM-mono format.

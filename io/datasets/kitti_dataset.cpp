@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "io/datasets/sequence_dataset.h"
+#include "io/images/image_names.h"
+#include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 
 namespace ldso {
@@ -38,6 +40,8 @@ KittiCamera read_camera(const fs::path& folder, const std::string& matrix, const
   const fs::path file = folder / "calib.txt";
   std::error_code error;
   KittiCamera camera;
+  if (!options.calibration_file && !fs::exists(file, error))
+    throw Error(file.string(), "there is no calibration of the camera", "write this file or give another with --calib");
   if (!options.calibration_file || fs::exists(file, error)) {
     const std::map<std::string, Projection> matrices = read_kitti_calibration(file);
     const auto own = matrices.find(matrix);
@@ -47,6 +51,19 @@ KittiCamera read_camera(const fs::path& folder, const std::string& matrix, const
   }
   if (options.calibration_file) camera.calibration = read_camera_calibration(*options.calibration_file);
   return camera;
+}
+
+/// times.txt, or those of --fps where it is missing.
+FrameTimes read_times_of(const fs::path& folder, const std::vector<std::string>& names, const DatasetOptions& options,
+                         std::vector<std::string>& warnings) {
+  const fs::path file = folder / "times.txt";
+  std::error_code error;
+  if (fs::exists(file, error)) return read_kitti_times(file, warnings);
+  if (!options.fps) throw Error(file.string(), "there are no times of the images", "give their rate by --fps");
+  FrameTimes times{file, {}, false};
+  for (const FrameEntry& frame : times_from_rate(names, *options.fps))
+    times.entries.push_back({frame.name, frame.timestamp, std::nullopt});
+  return times;
 }
 
 Trajectory camera_poses(const fs::path& poses, const FrameTimes& times, const SE3d& T_camera0_camera) {
@@ -73,8 +90,8 @@ std::unique_ptr<Dataset> open_kitti(const fs::path& folder, const DatasetOptions
   sequence.images = open_image_folder(folder / (grey ? "image_0" : "image_2"));
   KittiCamera camera = read_camera(folder, grey ? "P0" : "P2", options);
   sequence.calibration = std::move(camera.calibration);
-  const FrameTimes times = read_kitti_times(folder / "times.txt");
-  const std::vector<std::string> names = sequence.images->names();
+  const std::vector<std::string> names = choose_images(sequence.images->names(), options.pattern, sequence.location);
+  const FrameTimes times = read_times_of(folder, names, options, sequence.warnings);
   if (!names.empty()) sequence.frames = match_times(names, times, sequence.warnings);
 
   const fs::path normal = fs::weakly_canonical(fs::absolute(folder));

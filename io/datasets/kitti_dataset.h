@@ -12,7 +12,7 @@ namespace ldso {
 
 bool is_kitti(const std::filesystem::path& folder);
 
-/// Opens it; only the option calibration_file is used. Throws Error.
+/// Opens it; only the options calibration_file, fps (without times.txt) and pattern are used. Throws Error.
 std::unique_ptr<Dataset> open_kitti(const std::filesystem::path& folder, const DatasetOptions& options);
 
 }  // namespace ldso

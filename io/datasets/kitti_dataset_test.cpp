@@ -59,5 +59,15 @@ TEST(KittiDataset, PosesOfAnotherLengthAreAWarning) {
   EXPECT_NE(dataset->warnings()[0].find("1 poses for 3 times"), std::string::npos) << dataset->warnings()[0];
 }
 
+TEST(KittiDataset, WithoutTimesNeedsARate) {
+  const TemporaryFolder folder;
+  const auto path = make_kitti(folder.path(), 3);
+  std::filesystem::remove(path / "times.txt");
+  EXPECT_NE(error_of([&] { open_kitti(path, {}); }).find("--fps"), std::string::npos);
+  const auto dataset = open_kitti(path, {.fps = 4});
+  EXPECT_DOUBLE_EQ(dataset->timestamp(2), 0.5);
+  EXPECT_DOUBLE_EQ(dataset->ground_truth()->at(2).timestamp, 0.5);
+}
+
 }  // namespace
 }  // namespace ldso

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "io/datasets/euroc_dataset.h"
 #include "io/datasets/image_folder_dataset.h"
@@ -35,11 +38,53 @@ constexpr std::array<Format, 6> kFormats{{
     {"video: a file *.mp4, *.avi, *.mov, *.mkv, ...", is_video, open_video},
 }};
 
+/// Folders in folders that are looked into for a sequence, and files and folders in all.
+constexpr int kMostDepth = 2;
+constexpr int kMostEntries = 20'000;
+
+/// Sequences that a message names.
+constexpr std::size_t kMostNamed = 4;
+
 std::string looked_for() {
   std::string text = "looked for";
   for (const Format& format : kFormats)
     text += std::string(&format == kFormats.begin() ? " " : "; ") + format.looked_for;
   return text;
+}
+
+/// Whether a folder or file is one of the formats, videos by their names alone.
+bool looks_like_sequence(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return has_video_extension(path);
+  return std::any_of(kFormats.begin(), kFormats.end(), [&](const Format& format) { return format.recognizes(path); });
+}
+
+/// Sequences in `folder` and the folders in it: people give the folder of a whole recording.
+std::vector<std::string> find_sequences(const fs::path& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  auto entry = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error);
+  for (int seen = 0; !error && entry != fs::recursive_directory_iterator() && seen < kMostEntries; ++seen) {
+    if (entry.depth() >= kMostDepth) entry.disable_recursion_pending();
+    if (looks_like_sequence(entry->path())) {
+      found.push_back(entry->path().lexically_relative(folder).string());
+      entry.disable_recursion_pending();
+    }
+    entry.increment(error);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// What to give instead of a folder that is no sequence.
+std::string remedy_for(const fs::path& folder) {
+  const std::vector<std::string> found = find_sequences(folder);
+  if (found.empty()) return looked_for();
+  std::string names;
+  for (std::size_t i = 0; i < std::min(found.size(), kMostNamed); ++i) names += (i > 0 ? ", " : "") + found[i];
+  if (found.size() > kMostNamed) names += ", ...";
+  return "there are images or videos in " + names +
+         ": give one of these, with the camera's calibration by --calib if it lies elsewhere, and --fps";
 }
 
 std::unique_ptr<Dataset> open_whole(const fs::path& path, const DatasetOptions& options) {
@@ -50,7 +95,7 @@ std::unique_ptr<Dataset> open_whole(const fs::path& path, const DatasetOptions& 
   for (const Format& format : kFormats) {
     if (format.recognizes(path)) return format.open(path, options);
   }
-  throw Error(path.string(), "is no image sequence of a known format", looked_for());
+  throw Error(path.string(), "is no image sequence of a known format", remedy_for(path));
 }
 
 }  // namespace

@@ -96,5 +96,32 @@ TEST(OpenDataset, UnknownContentSaysWhatWasLookedFor) {
   }
 }
 
+TEST(OpenDataset, FolderOfARecordingNamesTheSequencesInIt) {
+  const TemporaryFolder folder;
+  write_frame(folder / "drive_0001/image_00/data/0000000000.png", 0);
+  write_frame(folder / "drive_0001/image_01/data/0000000000.png", 0);
+  const std::string message = error_of([&] { open_dataset(folder / "drive_0001"); });
+  EXPECT_NE(message.find("image_00/data, image_01/data: give one of these"), std::string::npos) << message;
+  write_frame(folder / "room/rgb/1.png", 0);
+  EXPECT_NE(error_of([&] { open_dataset(folder / "room"); }).find("videos in rgb: give"), std::string::npos);
+}
+
+TEST(OpenDataset, SeveralKindsOfImagesAreAnErrorAndAPatternChooses) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 3; ++i) {
+    write_frame(folder / ("frame-" + std::to_string(i) + ".color.png"), i);
+    write_frame(folder / ("frame-" + std::to_string(i) + ".depth.png"), 9);
+  }
+  write_text(folder / "camera.txt", kTestCamera);
+  const std::string message = error_of([&] { open_dataset(folder.path()); });
+  EXPECT_NE(message.find("frame-%d.color.png (3), frame-%d.depth.png (3)"), std::string::npos) << message;
+  DatasetOptions options;
+  options.fps = 10;
+  options.pattern = "frame-%d.color.png";
+  const auto dataset = open_dataset(folder.path(), options);
+  ASSERT_EQ(dataset->size(), 3);
+  EXPECT_EQ(dataset->read(2).grey(1, 1), test_frame(2)(1, 1));
+}
+
 }  // namespace
 }  // namespace ldso

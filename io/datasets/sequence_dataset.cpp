@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "io/calibration/calibration_doubts.h"
+#include "io/datasets/sequence_images.h"
 #include "io/images/image_file.h"
 #include "ldso/error.h"
 
@@ -19,7 +21,7 @@ std::string to_string(int width, int height) { return std::to_string(width) + "x
 
 Image<float> decode(const Sequence& sequence, int index) {
   const std::string& name = sequence.frames[static_cast<std::size_t>(index)].name;
-  return decode_grey_image(sequence.images->read(name), sequence.images->describe(name));
+  return decode_grey_image(sequence.images->read(name), sequence.images->describe(name), sequence.bits);
 }
 
 /// Size of the first readable image among some spread over the sequence that has the wanted size; if none has, of the
@@ -50,6 +52,7 @@ void fit_calibration_to_images(Sequence& sequence) {
   if (camera.width == 0 && camera.height == 0) {
     camera.width = size.width;
     camera.height = size.height;
+    doubt_intrinsics(camera, sequence.calibration.description, sequence.calibration.warnings);
   }
   if (size.width != camera.width || size.height != camera.height) {
     throw Error(size.name,
@@ -113,7 +116,11 @@ std::unique_ptr<Dataset> make_sequence_dataset(Sequence sequence) {
     throw Error(sequence.location, "there are no images", "PNG, JPEG, PGM, TIFF and BMP images are looked for");
   }
   fit_calibration_to_images(sequence);
+  const std::vector<std::string>& doubts = sequence.calibration.warnings;
+  sequence.warnings.insert(sequence.warnings.end(), doubts.begin(), doubts.end());
   warn_about_time_order(sequence);
+  warn_about_orientation(*sequence.images, sequence.frames, sequence.warnings);
+  sequence.bits = used_bits(*sequence.images, sequence.frames, sequence.warnings);
   return std::make_unique<SequenceDataset>(std::move(sequence));
 }
 

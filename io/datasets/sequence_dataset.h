@@ -23,6 +23,8 @@ struct Sequence {
   Calibration calibration;
   std::optional<Trajectory> ground_truth;
   std::vector<std::string> warnings;
+  /// That are used of images of 16 bits; found out when the data set is made.
+  int bits = 16;
 };
 
 /// Throws Error if there is no frame, no frame can be read, or the images are not of the calibration's size.

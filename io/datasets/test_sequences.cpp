@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "io/images/image_file.h"
@@ -37,6 +38,39 @@ std::string tum_mono_times(int count) {
   std::string text;
   for (int i = 0; i < count; ++i) text += numbered("%05d ", i) + std::to_string(0.1 * i) + " 2.5\n";
   return text;
+}
+
+cv::Mat test_picture(int index) {
+  const Image<float> frame = test_frame(index);
+  cv::Mat image(kTestHeight, kTestWidth, CV_8UC3);
+  for (int y = 0; y < kTestHeight; ++y) {
+    for (int x = 0; x < kTestWidth; ++x)
+      image.at<cv::Vec3b>(y, x) = cv::Vec3b::all(cv::saturate_cast<uchar>(frame(x, y)));
+  }
+  return image;
+}
+
+/// The bytes of a number, the highest first.
+std::string big_endian(std::uint64_t value, int count) {
+  std::string bytes;
+  for (int i = count - 1; i >= 0; --i) bytes += static_cast<char>(value >> (8 * i));
+  return bytes;
+}
+
+/// An element of Matroska: its name, which knows its own length, and what it holds.
+std::string ebml(std::uint32_t name, const std::string& content) {
+  const int length = name > 0xffffff ? 4 : name > 0xffff ? 3 : name > 0xff ? 2 : 1;
+  return big_endian(name, length) + big_endian(0x0100000000000000ULL | content.size(), 8) + content;
+}
+
+std::string ebml(std::uint32_t name, int number) {
+  return ebml(name, big_endian(static_cast<std::uint64_t>(number), 4));
+}
+
+std::string jpeg_bytes(int index) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", test_picture(index), bytes);
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -156,19 +190,29 @@ fs::path make_video(const fs::path& folder, int count) {
   cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0,
                          cv::Size(kTestWidth, kTestHeight));
   EXPECT_TRUE(writer.isOpened());
-  for (int i = 0; i < count; ++i) {
-    const Image<float> frame = test_frame(i);
-    cv::Mat image(kTestHeight, kTestWidth, CV_8UC3);
-    for (int y = 0; y < kTestHeight; ++y) {
-      for (int x = 0; x < kTestWidth; ++x) {
-        image.at<cv::Vec3b>(y, x) = cv::Vec3b::all(static_cast<std::uint8_t>(frame(x, y)));
-      }
-    }
-    writer.write(image);
-  }
+  for (int i = 0; i < count; ++i) writer.write(test_picture(i));
   writer.release();
   write_text(folder / "camera.txt", kTestCamera);
   return file;
+}
+
+fs::path make_matroska(const fs::path& folder, const std::vector<int>& times_ms) {
+  const std::string unknown_size = "\x01\xff\xff\xff\xff\xff\xff\xff";
+  std::string text = ebml(0x1A45DFA3, ebml(0x4286, 1) + ebml(0x42F7, 1) + ebml(0x42F2, 4) + ebml(0x42F3, 8) +
+                                          ebml(0x4282, "matroska") + ebml(0x4287, 4) + ebml(0x4285, 2));
+  text += big_endian(0x18538067, 4) + unknown_size;                                                 // Segment
+  text += ebml(0x1549A966, ebml(0x2AD7B1, 1000000) + ebml(0x4D80, "ldso") + ebml(0x5741, "ldso"));  // Unit: 1 ms
+  const std::string track = ebml(0xD7, 1) + ebml(0x73C5, 1) + ebml(0x83, 1) + ebml(0x86, "V_MJPEG") +
+                            ebml(0xE0, ebml(0xB0, kTestWidth) + ebml(0xBA, kTestHeight));
+  text += ebml(0x1654AE6B, ebml(0xAE, track));
+  text += big_endian(0x1F43B675, 4) + unknown_size + ebml(0xE7, 0);  // Cluster
+  for (std::size_t i = 0; i < times_ms.size(); ++i) {
+    const std::string time = big_endian(static_cast<std::uint64_t>(times_ms[i]), 2);
+    text += ebml(0xA3, "\x81" + time + "\x80" + jpeg_bytes(static_cast<int>(i)));
+  }
+  write_text(folder / "stream.mkv", text);
+  write_text(folder / "camera.txt", kTestCamera);
+  return folder / "stream.mkv";
 }
 
 std::string error_of(const std::function<void()>& action) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "ldso/image.h"
 
@@ -44,6 +45,9 @@ std::filesystem::path make_euroc(const std::filesystem::path& folder, int count)
 std::filesystem::path make_tum_rgbd(const std::filesystem::path& folder, int count);
 std::filesystem::path make_image_folder(const std::filesystem::path& folder, int count);
 std::filesystem::path make_video(const std::filesystem::path& folder, int count);
+/// A Matroska stream, as a program writes it into a pipe: without duration, index and rate, with frame i at
+/// times_ms[i].
+std::filesystem::path make_matroska(const std::filesystem::path& folder, const std::vector<int>& times_ms);
 
 /// What the ldso::Error says that `action` throws; a failed expectation if it throws none.
 std::string error_of(const std::function<void()>& action);

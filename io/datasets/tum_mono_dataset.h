@@ -12,7 +12,7 @@ namespace ldso {
 
 bool is_tum_mono(const std::filesystem::path& folder);
 
-/// Opens it; only the options calibration_file and fps are used. Throws Error.
+/// Opens it; only the options calibration_file, fps and pattern are used. Throws Error.
 std::unique_ptr<Dataset> open_tum_mono(const std::filesystem::path& folder, const DatasetOptions& options);
 
 }  // namespace ldso

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/calibration/foreign_calibration.h"
 #include "io/datasets/sequence_dataset.h"
+#include "io/datasets/time_unit.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
@@ -52,7 +54,7 @@ Calibration to_calibration(const FreiburgCamera& freiburg) {
 Calibration read_calibration(const fs::path& folder, const DatasetOptions& options) {
   std::error_code error;
   if (options.calibration_file) return read_camera_calibration(*options.calibration_file);
-  if (fs::exists(folder / "camera.txt", error)) return read_camera_calibration(folder / "camera.txt");
+  if (const fs::path own = find_calibration(folder); fs::exists(own, error)) return read_camera_calibration(own);
   const fs::path normal = fs::weakly_canonical(fs::absolute(folder));
   const fs::path name = normal.has_filename() ? normal.filename() : normal.parent_path().filename();
   if (auto known = freiburg_calibration(name.string())) return *std::move(known);
@@ -61,14 +63,18 @@ Calibration read_calibration(const fs::path& folder, const DatasetOptions& optio
               "write camera.txt, give one with --calib, or have freiburg1, 2 or 3 in the folder's name");
 }
 
-std::vector<FrameEntry> read_frames(const fs::path& path) {
+std::vector<FrameEntry> read_frames(const fs::path& path, std::vector<std::string>& warnings) {
   const TextFile file(path);
   std::vector<FrameEntry> frames;
+  std::vector<double> times;
   for (const TextLine& line : file.lines()) {
     if (line.fields.size() != 2)
       file.fail(line, "'" + line.text + "' is not understood", "expected `timestamp filename`");
-    frames.push_back({line.fields[1], file.finite_number(line, 0), std::nullopt});
+    times.push_back(file.finite_number(line, 0));
+    frames.push_back({line.fields[1], 0, std::nullopt});
   }
+  convert_to_seconds(times, path, warnings);
+  for (std::size_t i = 0; i < times.size(); ++i) frames[i].timestamp = times[i];
   return frames;
 }
 
@@ -95,7 +101,7 @@ std::unique_ptr<Dataset> open_tum_rgbd(const fs::path& folder, const DatasetOpti
   sequence.location = folder.string();
   sequence.images = open_image_folder(folder);
   sequence.calibration = read_calibration(folder, options);
-  sequence.frames = read_frames(folder / "rgb.txt");
+  sequence.frames = read_frames(folder / "rgb.txt", sequence.warnings);
   std::error_code error;
   const fs::path truth = folder / "groundtruth.txt";
   if (fs::exists(truth, error)) read_ground_truth(sequence, [&] { return read_tum_trajectory(truth); });

@@ -1,16 +1,17 @@
 #include "io/datasets/video_dataset.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
+#include <fstream>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "io/calibration/foreign_calibration.h"
+#include "io/calibration/unused_photometry.h"
+#include "io/datasets/video_reader.h"
+#include "io/images/image_file.h"
 #include "io/images/opencv_grey.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
@@ -21,106 +22,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those that read files; cv::CAP_ANY would look for cameras on the bus as well.
-constexpr std::array<int, 3> kFileBackends{cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG, cv::CAP_GSTREAMER};
-
-/// That even a frame like the one before takes in a file, with its place in the index.
-constexpr std::uintmax_t kLeastBytesOfFrame = 8;
-
 /// Of a file that does not say.
 constexpr double kDefaultFps = 30.0;
 
-/// Frames that are decoded and kept at once when reading backwards.
-constexpr int kBlock = 32;
+/// A file's beginning that tells text from a video.
+constexpr std::size_t kSniffedBytes = 512;
 
-/// Decodes the frames of a file in any order.
-class VideoReader {
- public:
-  explicit VideoReader(fs::path path) : path_(std::move(path)) { reopen(); }
+/// Gaps between frames that differ by more than this share of the median are no constant rate. Containers round times
+/// to a millisecond, which is less at any rate of a camera.
+constexpr double kConstantRate = 0.2;
 
-  double fps() const { return capture_.get(cv::CAP_PROP_FPS); }
-
-  /// What the container says, or counted where it says nothing or more than its file has room for.
-  int count_frames() {
-    const double announced = capture_.get(cv::CAP_PROP_FRAME_COUNT);
-    std::error_code error;
-    const double most = static_cast<double>(fs::file_size(path_, error) / kLeastBytesOfFrame);
-    if (std::isfinite(announced) && announced >= 1 && announced < std::min(most, 1e9))
-      return static_cast<int>(announced);
-    int count = 0;
-    while (capture_.grab()) ++count;
-    reopen();
-    return count;
-  }
-
-  /// Grey frame `index`, 8 bit. Throws Error if there is none.
-  cv::Mat read(int index) {
-    if (const auto kept = block_.find(index); kept != block_.end()) return kept->second;
-    if (index >= next_) {
-      block_.clear();
-      return decode_at(index);
-    }
-    fill_block(std::max(0, index - kBlock + 1), index);
-    return block_.at(index);
-  }
-
- private:
-  void reopen() {
-    next_ = 0;
-    const bool opened = std::any_of(kFileBackends.begin(), kFileBackends.end(),
-                                    [this](int backend) { return capture_.open(path_.string(), backend); });
-    if (opened) return;
-    throw Error(path_.string(), "the video cannot be opened", "convert it, to H.264 in an .mp4 file for instance");
-  }
-
-  void fill_block(int first, int last) {
-    block_.clear();
-    go_back_to(first);
-    for (int i = first; i <= last; ++i) block_[i] = decode_at(i);
-  }
-
-  /// Seeking is trusted only where the decoder confirms the position; otherwise decoding starts from the beginning.
-  void go_back_to(int index) {
-    const bool sought = capture_.set(cv::CAP_PROP_POS_FRAMES, index);
-    if (sought && static_cast<int>(std::lround(capture_.get(cv::CAP_PROP_POS_FRAMES))) == index) {
-      next_ = index;
-    } else {
-      reopen();
-    }
-  }
-
-  cv::Mat decode_at(int index) {
-    for (; next_ < index; ++next_) {
-      if (!capture_.grab()) fail(index);
-    }
-    cv::Mat frame;
-    if (!capture_.read(frame) || frame.empty()) fail(index);
-    ++next_;
-    return to_grey(frame);
-  }
-
-  [[noreturn]] void fail(int index) const {
-    throw Error(path_.string(), "frame " + std::to_string(index) + " cannot be decoded; the video may be cut off",
-                "use --end to stop before it");
-  }
-
-  fs::path path_;
-  cv::VideoCapture capture_;
-  int next_ = 0;  ///< Index of the frame that capture_ yields next.
-  std::map<int, cv::Mat> block_;
-};
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 class VideoDataset final : public Dataset {
  public:
   VideoDataset(const fs::path& path, const DatasetOptions& options) : path_(path), reader_(path) {
     calibration_ = read_calibration(options);
-    count_ = reader_.count_frames();
-    fps_ = frame_rate(options);
+    const bool from_the_start = options.end && *options.end > 0;
+    VideoTimes found = reader_.scan(from_the_start ? options.end : std::nullopt);
+    count_ = found.frames;
+    if (count_ == 0) throw Error(path_.string(), "the video has no frame that can be decoded", "convert it again");
+    set_times(std::move(found.seconds), options);
     check_size();
+    warnings_.insert(warnings_.end(), calibration_.warnings.begin(), calibration_.warnings.end());
+    say_rotation();
+    warn_about_unused_photometry(path_.parent_path(), calibration_.photometric, warnings_);
   }
 
   int size() const override { return count_; }
-  double timestamp(int index) const override { return index / fps_; }
+  double timestamp(int index) const override {
+    return times_.empty() ? index / fps_ : times_.at(static_cast<std::size_t>(index));
+  }
   const Calibration& calibration() const override { return calibration_; }
   std::optional<Trajectory> ground_truth() const override { return std::nullopt; }
   std::string format_name() const override { return "video"; }
@@ -138,7 +70,7 @@ class VideoDataset final : public Dataset {
  private:
   Calibration read_calibration(const DatasetOptions& options) const {
     std::error_code error;
-    const fs::path camera = options.calibration_file.value_or(path_.parent_path() / "camera.txt");
+    const fs::path camera = options.calibration_file.value_or(find_calibration(path_.parent_path()));
     if (!fs::exists(camera, error)) {
       throw Error(camera.string(), "there is no calibration of the camera that took the video",
                   "write a camera.txt beside the video or give one with --calib");
@@ -146,23 +78,64 @@ class VideoDataset final : public Dataset {
     return read_camera_calibration(camera);
   }
 
+  /// The file's own times, unless a rate is given.
+  void set_times(std::vector<double> times, const DatasetOptions& options) {
+    if (!options.fps && !times.empty()) {
+      times_ = std::move(times);
+      say_varying_rate();
+      return;
+    }
+    fps_ = frame_rate(options);
+  }
+
+  void say_varying_rate() {
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < times_.size(); ++i) gaps.push_back(times_[i] - times_[i - 1]);
+    if (gaps.empty()) return;
+    std::sort(gaps.begin(), gaps.end());
+    const double median = gaps[gaps.size() / 2];
+    if (gaps.back() - gaps.front() <= kConstantRate * median) return;
+    warnings_.push_back(path_.string() + ": the frame rate varies; gaps between frames are " +
+                        std::to_string(std::lround(1000 * gaps.front())) + " to " +
+                        std::to_string(std::lround(1000 * gaps.back())) +
+                        " ms by the file's own times, which are used");
+  }
+
   double frame_rate(const DatasetOptions& options) {
     const double fps = options.fps.value_or(reader_.fps());
-    if (std::isfinite(fps) && fps > 0) return fps;
+    if (std::isfinite(fps) && fps > 0) {
+      if (!options.fps) {
+        warnings_.push_back(path_.string() + ": the video has no times of its own; " + std::to_string(fps) +
+                            " Hz are assumed, as it says (see --fps)");
+      }
+      return fps;
+    }
     if (options.fps) throw Error("--fps", "must be a positive number", "30, for instance");
     warnings_.push_back(path_.string() + ": the video does not say its frame rate; 30 Hz are assumed (see --fps)");
     return kDefaultFps;
   }
 
   void check_size() {
-    if (count_ == 0) throw Error(path_.string(), "the video has no frames", "");
     const cv::Mat first = reader_.read(0);
     const CameraCalibration& camera = calibration_.camera;
     if (first.cols == camera.width && first.rows == camera.height) return;
+    const bool swapped = first.cols == camera.height && first.rows == camera.width;
     throw Error(path_.string(),
-                "the video is " + std::to_string(first.cols) + "x" + std::to_string(first.rows) +
-                    ", but the calibration (" + calibration_.description + ") is for another size",
-                "give a calibration of this camera at this image size");
+                "the video is " + size_text(first.cols, first.rows) + (swapped ? " as it is stored" : "") +
+                    ", but the calibration (" + calibration_.description + ") is for " +
+                    size_text(camera.width, camera.height),
+                swapped ? "players may turn it, but the rows of the sensor are what counts: calibrate with frames that "
+                          "are not turned"
+                        : "give a calibration of this camera at this image size");
+  }
+
+  void say_rotation() {
+    const int turns = reader_.quarter_turns();
+    if (turns == 0) return;
+    warnings_.push_back(path_.string() + ": players are asked to turn it by " +
+                        (turns == 1 ? "a quarter turn" : "half a turn") +
+                        "; it is used as it is stored, since calibration and rolling shutter are about the rows of the "
+                        "sensor");
   }
 
   fs::path path_;
@@ -170,16 +143,43 @@ class VideoDataset final : public Dataset {
   Calibration calibration_;
   std::vector<std::string> warnings_;
   int count_ = 0;
+  std::vector<double> times_;  ///< Empty: by the rate.
   double fps_ = 0;
 };
 
+/// FFmpeg plays text as the screen of a terminal.
+bool is_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(kSniffedBytes, '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const std::string_view read(start.data(), static_cast<std::size_t>(stream.gcount()));
+  return std::none_of(read.begin(), read.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f';
+  });
+}
+
+bool opens_as_video(const fs::path& file) {
+  try {
+    return VideoReader(file).scan(1).frames > 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
+bool has_video_extension(const fs::path& file) {
+  static const std::set<std::string> kExtensions{".avi", ".mp4",  ".m4v",  ".mov",   ".mkv", ".mpg", ".wmv",
+                                                 ".ogv", ".webm", ".mpeg", ".ts",    ".flv", ".3gp", ".3g2",
+                                                 ".mts", ".m2ts", ".vob",  ".mjpeg", ".mxf", ".h264"};
+  return kExtensions.contains(to_lower(file.extension().string()));
+}
+
 bool is_video(const fs::path& file) {
-  static const std::set<std::string> kExtensions{".avi", ".mp4", ".m4v", ".mov",  ".mkv",
-                                                 ".mpg", ".wmv", ".ogv", ".webm", ".mpeg"};
   std::error_code error;
-  return fs::is_regular_file(file, error) && kExtensions.contains(to_lower(file.extension().string()));
+  if (!fs::is_regular_file(file, error)) return false;
+  // A single image would be played as a video of one frame.
+  return has_video_extension(file) || (!has_image_extension(file) && !is_text(file) && opens_as_video(file));
 }
 
 std::unique_ptr<Dataset> open_video(const fs::path& file, const DatasetOptions& options) {

@@ -17,6 +17,7 @@ namespace ldso {
 namespace {
 
 constexpr float k16BitPerGreyLevel = 257.0F;  // 65535 / 255
+constexpr float kLargestGreyLevel = 255.0F;
 constexpr float kLeastVignette = 1e-3F;
 
 std::string describe_image(const ImageHeader& header, const std::string& name) {
@@ -32,7 +33,8 @@ cv::Mat decode(std::span<const std::uint8_t> bytes, const std::string& name) {
   try {
     // The constructor wants a mutable pointer; imdecode only reads.
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data()));
-    decoded = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    // As stored: the rows of the sensor are what calibration and rolling shutter are about.
+    decoded = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& exception) {
     if (exception.code == cv::Error::StsNoMem) throw OutOfMemory("decoding " + describe_image(header, name));
     throw Error(name, "the image cannot be decoded (" + exception.err + ")", "replace or remove it");
@@ -86,11 +88,20 @@ void encode_png(const std::filesystem::path& path, const cv::Mat& image) {
 
 }  // namespace
 
-Image<float> decode_grey_image(std::span<const std::uint8_t> bytes, const std::string& name) {
+Image<float> decode_grey_image(std::span<const std::uint8_t> bytes, const std::string& name, int bits) {
   const cv::Mat decoded = decode(bytes, name);
   if (decoded.depth() == CV_8U) return to_grey<std::uint8_t>(decoded, 1.0F);
-  if (decoded.depth() == CV_16U) return to_grey<std::uint16_t>(decoded, k16BitPerGreyLevel);
+  if (decoded.depth() == CV_16U)
+    return to_grey<std::uint16_t>(decoded, static_cast<float>((1 << bits) - 1) / kLargestGreyLevel);
   throw Error(name, "the image has neither 8 nor 16 bits a channel", "convert it to PNG");
+}
+
+std::optional<int> largest_16_bit_value(std::span<const std::uint8_t> bytes, const std::string& name) {
+  const cv::Mat decoded = decode(bytes, name);
+  if (decoded.depth() != CV_16U) return std::nullopt;
+  double largest = 0;
+  cv::minMaxLoc(decoded, nullptr, &largest);
+  return static_cast<int>(largest);
 }
 
 Image<float> read_grey_image(const std::filesystem::path& path) {

@@ -2,14 +2,12 @@
 
 #include <zip.h>
 
-#include <algorithm>
-#include <cctype>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "io/images/image_file.h"
 #include "io/images/image_header.h"
+#include "io/images/image_names.h"
 #include "ldso/error.h"
 
 namespace ldso {
@@ -19,16 +17,6 @@ namespace fs = std::filesystem;
 
 /// That are unpacked at once.
 constexpr std::size_t kPartBytes = 1 << 16;
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Cuts the run of digits at `position` without its leading zeros and moves `position` behind it.
-std::string_view cut_number(std::string_view text, std::size_t& position) {
-  while (position < text.size() && text[position] == '0') ++position;
-  const std::size_t begin = position;
-  while (position < text.size() && is_digit(text[position])) ++position;
-  return text.substr(begin, position - begin);
-}
 
 /// The vignette lies beside the images of a plain folder; names with a dot in front are leftovers of other programs.
 bool is_frame_name(const fs::path& path) {
@@ -49,7 +37,7 @@ class ImageFolder final : public ImageSource {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
       if (!entry.is_directory() && is_frame_name(entry.path())) result.push_back(entry.path().filename().string());
     }
-    std::sort(result.begin(), result.end(), natural_less);
+    sort_image_names(result);
     return result;
   }
 
@@ -70,7 +58,10 @@ class ImageZip final : public ImageSource {
   explicit ImageZip(fs::path path) : path_(std::move(path)) {
     int code = 0;
     archive_.reset(zip_open(path_.c_str(), ZIP_RDONLY, &code));
-    if (archive_) return;
+    if (archive_) {
+      refuse_encrypted();
+      return;
+    }
     zip_error_t error;
     zip_error_init_with_code(&error, code);
     const std::string reason = zip_error_strerror(&error);
@@ -86,7 +77,7 @@ class ImageZip final : public ImageSource {
       const char* name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
       if (name != nullptr && is_frame_name(name)) result.emplace_back(name);
     }
-    std::sort(result.begin(), result.end(), natural_less);
+    sort_image_names(result);
     return result;
   }
 
@@ -108,6 +99,17 @@ class ImageZip final : public ImageSource {
   std::string describe(const std::string& name) const override { return path_.string() + ":" + name; }
 
  private:
+  void refuse_encrypted() const {
+    const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+    for (zip_int64_t i = 0; i < count; ++i) {
+      zip_stat_t entry;
+      zip_stat_init(&entry);
+      if (zip_stat_index(archive_.get(), static_cast<zip_uint64_t>(i), 0, &entry) != 0) continue;
+      if ((entry.valid & ZIP_STAT_ENCRYPTION_METHOD) == 0 || entry.encryption_method == ZIP_EM_NONE) continue;
+      throw Error(path_.string(), "the archive is encrypted", "unpack it with its password into a folder images/");
+    }
+  }
+
   [[noreturn]] void fail(const std::string& name, const std::string& reason) const {
     throw Error(describe(name), "cannot be unpacked (" + reason + ")", "copy the archive again");
   }
@@ -120,25 +122,6 @@ class ImageZip final : public ImageSource {
 };
 
 }  // namespace
-
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      const std::string_view number_a = cut_number(a, i);
-      const std::string_view number_b = cut_number(b, j);
-      if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
-      if (number_a != number_b) return number_a < number_b;
-    } else {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i;
-      ++j;
-    }
-  }
-  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
-  return a < b;  // Equal but for leading zeros.
-}
 
 std::unique_ptr<ImageSource> open_image_folder(const fs::path& folder) { return std::make_unique<ImageFolder>(folder); }
 

@@ -15,7 +15,7 @@ class ImageSource {
   ImageSource(const ImageSource&) = delete;
   ImageSource& operator=(const ImageSource&) = delete;
 
-  /// The images in it, numbers in the names counted as numbers ("9.png" before "10.png").
+  /// The images in it, in the order of sort_image_names().
   virtual std::vector<std::string> names() const = 0;
   /// Bytes of the encoded image. Throws Error naming it.
   virtual std::vector<std::uint8_t> read(const std::string& name) const = 0;
@@ -31,8 +31,5 @@ std::unique_ptr<ImageSource> open_image_folder(const std::filesystem::path& fold
 
 /// Images may lie in folders inside the archive. Throws Error if it is not a zip archive.
 std::unique_ptr<ImageSource> open_image_zip(const std::filesystem::path& archive);
-
-/// Order of names in which runs of digits compare as numbers.
-bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace ldso

@@ -1,6 +1,7 @@
 #include "io/images/image_source.h"
 
 #include <gtest/gtest.h>
+#include <zip.h>
 
 #include "io/datasets/test_sequences.h"
 #include "io/images/image_file.h"
@@ -8,17 +9,6 @@
 
 namespace ldso {
 namespace {
-
-TEST(NaturalLess, NumbersCountAsNumbers) {
-  EXPECT_TRUE(natural_less("img9.png", "img10.png"));
-  EXPECT_FALSE(natural_less("img10.png", "img9.png"));
-  EXPECT_TRUE(natural_less("a2b1", "a2b03"));
-  EXPECT_TRUE(natural_less("a", "a1"));
-  EXPECT_TRUE(natural_less("img01.png", "img1.png"));
-  EXPECT_FALSE(natural_less("img1.png", "img01.png"));
-  EXPECT_FALSE(natural_less("x.png", "x.png"));
-  EXPECT_TRUE(natural_less("99999999999999999999998.png", "99999999999999999999999.png"));
-}
 
 TEST(ImageFolder, ListsImagesInOrderAndNothingElse) {
   const TemporaryFolder folder;
@@ -70,6 +60,19 @@ TEST(ImageZip, ClaimsOfItsDirectoryAreNotBelieved) {
   const std::vector<std::uint8_t> image = source->read(source->names().at(0));
   EXPECT_LT(image.capacity(), 1u << 20);
   EXPECT_EQ(decode_grey_image(image, "a")(3, 2), test_frame(0)(3, 2));
+}
+
+TEST(ImageZip, SaysThatItIsEncrypted) {
+  const TemporaryFolder folder;
+  const std::string content = "secret";
+  int error = 0;
+  zip_t* archive = zip_open((folder / "images.zip").c_str(), ZIP_CREATE, &error);
+  const zip_int64_t index =
+      zip_file_add(archive, "0.png", zip_source_buffer(archive, content.data(), content.size(), 0), 0);
+  ASSERT_EQ(zip_file_set_encryption(archive, static_cast<zip_uint64_t>(index), ZIP_EM_AES_256, "password"), 0);
+  ASSERT_EQ(zip_close(archive), 0);
+  const std::string message = error_of([&] { open_image_zip(folder / "images.zip"); });
+  EXPECT_NE(message.find("the archive is encrypted; unpack it"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -9,18 +9,18 @@
 namespace ldso {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ImageBytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::size_t kBmpHeader = 54;
 constexpr std::uint8_t kStartOfScan = 0xda;
 constexpr std::uint8_t kEndOfImage = 0xd9;
 
-bool starts_as_jpeg(Bytes bytes) {
+bool starts_as_jpeg(ImageBytes bytes) {
   return bytes.size() >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-bool starts_as_png(Bytes bytes) {
+bool starts_as_png(ImageBytes bytes) {
   return bytes.size() >= kPngSignature.size() && std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin());
 }
 
@@ -28,7 +28,7 @@ bool is_parameterless_marker(std::uint8_t marker) { return marker == 0x01 || (ma
 
 /// Position after the entropy-coded data that begin at `position`: of the next 0xff that is followed neither by a
 /// stuffed zero nor by a restart marker.
-std::size_t skip_scan_data(Bytes bytes, std::size_t position) {
+std::size_t skip_scan_data(ImageBytes bytes, std::size_t position) {
   while (true) {
     const auto found = std::find(bytes.begin() + static_cast<std::ptrdiff_t>(position), bytes.end(), 0xff);
     position = static_cast<std::size_t>(found - bytes.begin());
@@ -41,7 +41,7 @@ std::size_t skip_scan_data(Bytes bytes, std::size_t position) {
 }
 
 /// Walks the segments (the thumbnail inside an EXIF segment has an end mark of its own, so searching would not do).
-bool jpeg_is_complete(Bytes bytes) {
+bool jpeg_is_complete(ImageBytes bytes) {
   std::size_t position = 2;
   while (position + 1 < bytes.size()) {
     const std::uint8_t marker = bytes[position + 1];
@@ -60,7 +60,7 @@ bool jpeg_is_complete(Bytes bytes) {
   return false;
 }
 
-bool png_is_complete(Bytes bytes) {
+bool png_is_complete(ImageBytes bytes) {
   std::size_t position = kPngSignature.size();
   while (position + 12 <= bytes.size()) {
     const auto at = [&](std::size_t offset) { return static_cast<std::size_t>(bytes[position + offset]); };
@@ -72,11 +72,11 @@ bool png_is_complete(Bytes bytes) {
   return false;
 }
 
-bool starts_as_binary_pnm(Bytes bytes) {
+bool starts_as_binary_pnm(ImageBytes bytes) {
   return bytes.size() >= 2 && bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6');
 }
 
-bool pnm_is_complete(Bytes bytes) {
+bool pnm_is_complete(ImageBytes bytes) {
   std::size_t position = 2;
   const std::size_t width = pnm_number(bytes, position);
   const std::size_t height = pnm_number(bytes, position);
@@ -87,10 +87,10 @@ bool pnm_is_complete(Bytes bytes) {
   return maximum > 0 && bytes.size() >= header + width * height * channels * bytes_per_value;
 }
 
-bool starts_as_bmp(Bytes bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
+bool starts_as_bmp(ImageBytes bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
 
 /// Some writers leave the size in the header at 0.
-bool bmp_is_complete(Bytes bytes) {
+bool bmp_is_complete(ImageBytes bytes) {
   if (bytes.size() < kBmpHeader) return false;
   const auto at = [&](std::size_t offset) { return static_cast<std::size_t>(bytes[offset]); };
   return bytes.size() >= (at(2) | at(3) << 8 | at(4) << 16 | at(5) << 24);
@@ -98,7 +98,7 @@ bool bmp_is_complete(Bytes bytes) {
 
 }  // namespace
 
-bool is_truncated_image(Bytes bytes) {
+bool is_truncated_image(ImageBytes bytes) {
   if (starts_as_jpeg(bytes)) return !jpeg_is_complete(bytes);
   if (starts_as_png(bytes)) return !png_is_complete(bytes);
   if (starts_as_binary_pnm(bytes)) return !pnm_is_complete(bytes);

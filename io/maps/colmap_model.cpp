@@ -20,6 +20,17 @@ struct LensName {
 };
 constexpr std::array<LensName, 4> kLenses{{{"PINHOLE", 0}, {"FOV", 1}, {"OPENCV", 4}, {"OPENCV_FISHEYE", 4}}};
 
+/// OPENCV with k3 and the denominator.
+constexpr const char* kFullLens = "FULL_OPENCV";
+
+bool has_more_distortion(const CameraCalibration& camera) { return camera.more_distortion != std::array<double, 4>{}; }
+
+const LensName& lens_of(const CameraCalibration& camera) {
+  const auto index = static_cast<std::size_t>(camera.model);
+  if (index < kLenses.size()) return kLenses[index];
+  throw Error("COLMAP", "it has no camera model for double sphere and EUCM cameras", "export --images rectified");
+}
+
 void append_number(std::string& text, const char* format, double value) {
   text += format_text(format, value + 0.0);  // Not -0.
 }
@@ -81,11 +92,16 @@ std::string points_text(const ColmapModel& model) {
 }  // namespace
 
 std::string colmap_camera(const CameraCalibration& camera) {
-  const LensName& lens = kLenses.at(static_cast<std::size_t>(camera.model));
-  std::string text = std::string(lens.name) + " " + std::to_string(camera.width) + " " + std::to_string(camera.height);
+  const LensName& lens = lens_of(camera);
+  const bool is_full = has_more_distortion(camera);
+  std::string text = std::string(is_full ? kFullLens : lens.name) + " " + std::to_string(camera.width) + " " +
+                     std::to_string(camera.height);
   for (const double value : {camera.fx, camera.fy, camera.cx + kHalfPixel, camera.cy + kHalfPixel})
     append_number(text, " %.12g", value);
   for (std::size_t i = 0; i < lens.distortion; ++i) append_number(text, " %.12g", camera.distortion[i]);
+  for (const double k : camera.more_distortion) {
+    if (is_full) append_number(text, " %.12g", k);
+  }
   return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ldso/error.h"
+
 #include "io/datasets/test_sequences.h"
 #include "util/whole_file.h"
 
@@ -45,6 +47,21 @@ TEST(ColmapModel, NamesThatTheFormatCannotHoldAreRefused) {
   ColmapModel model = two_images();
   model.images[1].name = "a b.png";
   EXPECT_THROW(write_colmap_model(folder / "sparse", model), Error);
+}
+
+TEST(ColmapModel, LensWithMoreCoefficientsIsTheFullOne) {
+  CameraCalibration camera;
+  camera.model = CameraModelKind::kRadTan;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 500;
+  camera.cx = 319.5;
+  camera.cy = 239.5;
+  camera.distortion = {0.1, 0.2, 0.3, 0.4};
+  camera.more_distortion = {0.5, 0, 0, 0};
+  EXPECT_EQ(colmap_camera(camera), "FULL_OPENCV 640 480 500 500 320 240 0.1 0.2 0.3 0.4 0.5 0 0 0");
+  camera.model = CameraModelKind::kEucm;
+  EXPECT_THROW(colmap_camera(camera), Error);
 }
 
 }  // namespace

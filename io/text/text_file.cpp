@@ -1,5 +1,6 @@
 #include "io/text/text_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iomanip>
@@ -12,6 +13,9 @@
 
 namespace ldso {
 namespace {
+
+/// That some editors put in front of UTF-8.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool is_separator(char c, bool comma_separated) {
   return c == ' ' || c == '\t' || c == '\r' || (comma_separated && c == ',');
@@ -56,15 +60,25 @@ std::ostringstream number_stream() {
   return out;
 }
 
+std::string read_text(const std::filesystem::path& path) {
+  std::string content = read_file(path);
+  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
+    throw Error(path.string(), "is text in UTF-16", "save it as UTF-8");
+  if (content.starts_with(kByteOrderMark)) content.erase(0, kByteOrderMark.size());
+  return content;
+}
+
 TextFile::TextFile(std::filesystem::path path, bool comma_separated) : path_(std::move(path)) {
-  const std::string content = read_file(path_);
+  const std::string content = read_text(path_);
   std::string_view rest = content;
   for (int number = 1; !rest.empty(); ++number) {
     const std::size_t end = rest.find('\n');
     const std::string_view text = rest.substr(0, end);
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
     std::vector<std::string> fields = split(text, comma_separated);
-    if (fields.empty() || fields.front().front() == '#') continue;
+    const auto is_comment = [](const std::string& field) { return field.front() == '#'; };
+    fields.erase(std::find_if(fields.begin(), fields.end(), is_comment), fields.end());
+    if (fields.empty()) continue;
     lines_.push_back({number, std::string(text), std::move(fields)});
   }
 }

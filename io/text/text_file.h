@@ -10,7 +10,7 @@ namespace ldso {
 
 // Text input whose every complaint names the file and the line: all text formats are read through it.
 
-/// A line that is neither blank nor a comment ('#'), cut into fields.
+/// A line that is neither blank nor a comment, cut into fields. A field that begins with '#' begins a comment.
 struct TextLine {
   int number = 0;  ///< Counted from 1, as editors do.
   std::string text;
@@ -37,6 +37,9 @@ class TextFile {
   std::filesystem::path path_;
   std::vector<TextLine> lines_;
 };
+
+/// A whole text file without the mark that may be in front of UTF-8. Throws Error if it cannot be read or is UTF-16.
+std::string read_text(const std::filesystem::path& path);
 
 /// The number that `text` consists of, independent of the locale; false if it is none. "nan" and "inf" are numbers.
 bool parse_number(std::string_view text, double& value);

@@ -32,6 +32,28 @@ TEST(TextFile, NamesFileAndLineOfWhatIsNoNumber) {
   EXPECT_NE(error_of([&] { file.finite_number(file.lines()[2], 0); }).find("not finite"), std::string::npos);
 }
 
+TEST(TextFile, ByteOrderMarksAreNoPartOfTheFirstField) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt",
+             "\xef\xbb\xbf"
+             "1 2\n");
+  EXPECT_EQ(TextFile(folder / "a.txt").number(TextFile(folder / "a.txt").lines()[0], 0), 1);
+  write_text(folder / "b.txt", "\xef\xbb\xbf# a comment\n3\n");
+  EXPECT_EQ(TextFile(folder / "b.txt").lines().size(), 1U);
+  write_text(folder / "c.txt", std::string("\xff\xfe"
+                                           "1\0\n\0",
+                                           6));
+  EXPECT_NE(error_of([&] { TextFile(folder / "c.txt"); }).find("UTF-16"), std::string::npos);
+}
+
+TEST(TextFile, CommentsMayFollowAFieldButNotBeginInOne) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.txt", "1 2 # two numbers\n0.1 rgb/a#1.png\n");
+  const TextFile file(folder / "a.txt");
+  EXPECT_EQ(file.lines()[0].fields.size(), 2U);
+  EXPECT_EQ(file.lines()[1].fields[1], "rgb/a#1.png");
+}
+
 TEST(TextFile, SplitsAtCommasOnlyIfAsked) {
   const TemporaryFolder folder;
   write_text(folder / "a.csv", "1,2, 3\n");

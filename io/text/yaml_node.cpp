@@ -12,7 +12,6 @@
 #include "io/text/text_file.h"
 #include "io/text/utf8.h"
 #include "ldso/error.h"
-#include "util/whole_file.h"
 
 namespace ldso {
 namespace {
@@ -71,7 +70,7 @@ YamlNode YamlNode::parse(const std::string& text, const std::string& origin, std
 }
 
 YamlNode YamlNode::read(const std::filesystem::path& path, std::string name) {
-  std::string text = read_file(path);
+  std::string text = read_text(path);
   if (text.starts_with("%YAML:")) text.front() = '#';  // A comment.
   return parse(text, path.string(), std::move(name));
 }
@@ -124,12 +123,22 @@ double YamlNode::positive_number() const {
   return number;
 }
 
+std::vector<double> YamlNode::all_numbers() const {
+  if (!is_list()) fail("is no list of numbers", "write `" + name_ + ": [1, 2, ..]`");
+  std::vector<double> numbers;
+  for (const YAML::Node& element : *node_) {
+    std::string text = child(element, name_).scalar();
+    if (text.ends_with('.')) text.pop_back();  // OpenCV writes "5." for 5.
+    double& number = numbers.emplace_back();
+    if (!parse_number(text, number) || !std::isfinite(number)) fail("is '" + text + "'", "a finite number is expected");
+  }
+  return numbers;
+}
+
 std::vector<double> YamlNode::numbers(std::size_t count) const {
   std::vector<double> numbers;
-  if (is_list()) {
-    for (const YAML::Node& element : *node_) numbers.push_back(child(element, name_).number());
-  }
-  if (!is_list() || numbers.size() != count)
+  if (is_list()) numbers = all_numbers();
+  if (numbers.size() != count)
     fail("is no list of " + std::to_string(count) + " numbers", "write `" + name_ + ": [1, 2, ..]`");
   return numbers;
 }

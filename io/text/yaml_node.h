@@ -40,6 +40,8 @@ class YamlNode {
   std::size_t one_of(const std::vector<std::string>& words) const;
   /// `count` finite numbers.
   std::vector<double> numbers(std::size_t count) const;
+  /// Finite numbers of a list, as many as there are.
+  std::vector<double> all_numbers() const;
   /// The elements of a list, or a value that is none as the only element. Not empty.
   std::vector<YamlNode> elements() const;
   /// (key, value) of a map, each key once.

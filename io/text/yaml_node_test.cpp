@@ -72,5 +72,11 @@ TEST(YamlNode, WholeNumbersHaveLimits) {
   EXPECT_NE(error_of([] { parsed("n: 99999999999999999999\n").at("n").whole_number(1); }), "");
 }
 
+TEST(YamlNode, FilesMayBeginWithAByteOrderMark) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.yaml", "\xef\xbb\xbf%YAML:1.0\n---\na: 7\n");
+  EXPECT_EQ(YamlNode::read(folder / "a.yaml", "file").at("a").number(), 7);
+}
+
 }  // namespace
 }  // namespace ldso

@@ -139,13 +139,12 @@ class CameraDataset final : public Dataset {
   const Calibration& calibration() const override { return calibration_; }
   std::optional<Trajectory> ground_truth() const override { return std::nullopt; }
   std::string format_name() const override { return "camera"; }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
+  const std::vector<std::string>& warnings() const override { return calibration_.warnings; }
   RawFrame read(int) const override { throw Error(name_, "the images of a camera are not kept", ""); }
 
  private:
   std::string name_;
   Calibration calibration_;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace

@@ -5,13 +5,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "evaluation/doubts.h"
 #include "evaluation/report.h"
 #include "evaluation/trajectory_evaluation.h"
 #include "evaluation/trajectory_picture.h"
 #include "evaluation/trajectory_source.h"
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "terminal/option_checks.h"
 #include "util/whole_file.h"
 
 namespace ldso {
@@ -41,10 +44,10 @@ void add_options(CLI::App& command, EvalArguments& a) {
       ->check(CLI::IsMember({"all", "ate", "tum-mono", "kitti"}))
       ->capture_default_str();
   command.add_option("--max-diff", a.options.max_time_difference, "Largest time difference of paired poses [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   command.add_option("--delta", a.options.relative.delta, "Length of the motions of the relative error [poses]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_flag("--all-pairs", a.options.relative.all_pairs, "Let the motions of the relative error overlap");
   command.add_option("--times", a.times, "Times of KITTI poses [s], one a line");
@@ -69,6 +72,11 @@ bool must_pair_by_index(const LoadedTrajectory& estimate, const LoadedTrajectory
               "give the times of the KITTI poses by --times FILE");
 }
 
+/// Beside the table, which other programs may read.
+void warn(const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts) std::cerr << "warning: " << doubt << "\n";
+}
+
 void run_eval(const EvalArguments& a) {
   check_outputs(a);
   const LoadedTrajectory estimate = load_trajectory(a.estimate, a.times);
@@ -76,7 +84,13 @@ void run_eval(const EvalArguments& a) {
   EvaluationOptions options = a.options;
   options.alignment = parse_alignment_mode(a.align);
   options.pair_by_index = must_pair_by_index(estimate, truth, a);
+  // Before what may fail for this very reason.
+  if (!options.pair_by_index) {
+    warn(doubts_about_times(estimate.poses, a.estimate.string()));
+    warn(doubts_about_times(truth.poses, a.truth.string()));
+  }
   const EvaluationResult result = evaluate_trajectory(estimate.poses, truth.poses, options);
+  warn(doubts_about_pairs(estimate.poses, truth.poses, result, options));
   const ReportMetric metric = parse_report_metric(a.metric);
   require_metric(result, metric);
 

@@ -16,6 +16,7 @@
 #include "ldso/io/trajectory_file.h"
 #include "output/colmap_export.h"
 #include "output/finished_run.h"
+#include "terminal/option_checks.h"
 #include "viewer/recording/recorded_map.h"
 #include "viewer/recording/recording_file.h"
 
@@ -129,7 +130,7 @@ void add_options(CLI::App& command, ExportArguments& a) {
   command
       .add_option("--max-depth-error", a.most_deviation,
                   "Leave out points whose inverse depth has a larger standard deviation, relative to it (0.05: 5 %)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--images", a.images, "colmap: images of the keyframes to write and to make the model for")
       ->check(CLI::IsMember({"rectified", "original", "none"}))
       ->capture_default_str();

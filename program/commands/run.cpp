@@ -23,6 +23,7 @@
 #include "running/sequence_runner.h"
 #include "terminal/browser.h"
 #include "terminal/interrupt.h"
+#include "terminal/option_checks.h"
 #include "terminal/progress_display.h"
 #include "util/out_of_memory.h"
 #include "viewer/live_run.h"
@@ -51,18 +52,22 @@ void add_options(CLI::App& command, RunArguments& a) {
                   "machine (camera:/dev/video2, camera:rtsp://... name others)")
       ->required();
   command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
-  command.add_option("--start", a.dataset.start, "First frame")->check(CLI::NonNegativeNumber);
+  command.add_option("--start", a.dataset.start, "First frame")->check(number_from_zero());
   command.add_option("--end", a.dataset.end,
                      "First frame that is not used any more; negative: so many left out at the end");
-  command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(CLI::PositiveNumber);
+  command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(positive_number());
   command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
   command.add_option("--calib", a.dataset.calibration_file,
                      "Calibration (camera.txt format) instead of the sequence's");
   CLI::Option* live = command.add_flag("--live", a.live,
                                        "Play the sequence at its own pace, as a camera would give it: frames that come "
                                        "too fast are dropped. A camera is always live");
-  command.add_option("--fps", a.dataset.fps, "Frame rate of a sequence without times, or to ask a camera for [Hz]")
-      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--fps", a.dataset.fps,
+                  "Frame rate of a sequence without times, or to ask a camera for [Hz]; 30000/1001 is one as well")
+      ->transform(frame_rate());
+  command.add_option("--pattern", a.dataset.pattern,
+                     "Which images of a folder, e.g. frame-%d.color.png (%d: a number, *: any text)");
   command.add_option("--config", a.config, "Settings (YAML)");
   command.add_option("--set", a.set, "One setting, e.g. selection.strategy=gradient; can be repeated")
       ->type_name("KEY=VALUE");
@@ -85,7 +90,7 @@ void add_options(CLI::App& command, RunArguments& a) {
   command
       .add_option("--checkpoint", a.checkpoint,
                   "Seconds from one checkpoint to the next (0: none): what `ldso resume` makes results of")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   command.add_flag("--no-report", a.no_report, "Do not write report.html");
   command.add_flag("--quiet", a.quiet, "Print warnings only");

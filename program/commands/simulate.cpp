@@ -11,6 +11,7 @@
 
 #include "ldso/error.h"
 #include "simulation/sequences/sequence_writer.h"
+#include "terminal/option_checks.h"
 
 namespace ldso {
 namespace {
@@ -39,9 +40,9 @@ void add_scene_options(CLI::App& command, SimulateArguments& a) {
   command.add_option("-o,--output", a.output, "Folder to write the sequence to")->required();
   command.add_option("--seed", a.recipe.seed, "Another seed is another world and another way")->capture_default_str();
   command.add_option("--frames", a.recipe.frames, "At most this many frames (0: the whole way)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   command.add_option("--fps", a.recipe.fps, "Frames per second (default: street 10, corridor 20, room and wall 30)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--style", a.recipe.style,
                   "Rooms: weak (texture), wallpaper (that repeats) or dark; streets: open (half of the image sky)")
@@ -51,14 +52,14 @@ void add_scene_options(CLI::App& command, SimulateArguments& a) {
                   "Before the wall: sideways (default), forward, turning, standing, orbit or slow (at first)")
       ->check(CLI::IsMember({"sideways", "forward", "turning", "standing", "orbit", "slow"}));
   command.add_option("--scale", a.recipe.scale, "Size of the street circuit; indoors the part of the way walked")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--speed", a.recipe.speed, "Speed on streets [m/s]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       .add_option("--models", a.recipe.models,
                   "Streets: houses, cars and signs repeat, so many models of each (0: all differ)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   command.add_option("--trajectory", a.trajectory, "Build streets along these camera poses (TUM or KITTI format)")
       ->check(CLI::ExistingFile);
   command.add_option("--times", a.times, "Times of KITTI poses [s], one a line (default: number / fps)")
@@ -75,16 +76,16 @@ void add_camera_options(CLI::App& command, SimulateArguments& a) {
   command.add_flag("--no-vignette", a.no_vignette, "No vignette");
   command.add_flag("--no-calibration", a.no_calibration, "Do not tell response and vignette");
   command.add_option("--exposure", a.recipe.sensor.exposure_ms, "Mean exposure time [ms]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_flag("--constant-exposure", a.constant_exposure, "No exposure changes");
   command.add_flag("--hide-exposure", a.hide_exposure, "Leave the exposure times out of times.txt");
   command.add_option("--noise", a.noise, "Noise, as a factor of the usual; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   command.add_flag("--motion-blur", a.recipe.sensor.motion_blur, "Blur by the motion during the exposure");
   command.add_option("--rolling-shutter", a.recipe.sensor.rolling_shutter_ms, "Time from first to last row [ms]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
 }
 
 void add_layout_options(CLI::App& command, SimulateArguments& a) {

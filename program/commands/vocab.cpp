@@ -19,6 +19,7 @@
 #include "place/orb_descriptor.h"
 #include "place/vocabulary_file.h"
 #include "place/vocabulary_trainer.h"
+#include "terminal/option_checks.h"
 #include "terminal/progress_bar.h"
 #include "util/format_text.h"
 
@@ -58,7 +59,7 @@ void add_train_options(CLI::App& command, TrainArguments& a) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command.add_option("--stride", a.stride, "Use every n-th image of a sequence or folder")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_option("--threads", a.threads, "Threads; the result does not depend on it")
       ->check(CLI::Range(1, 256))

@@ -32,6 +32,7 @@ DatasetOptions options_of(const Json& sequence) {
   if (sequence.contains("calib") && !sequence["calib"].is_null())
     options.calibration_file = sequence["calib"].get<std::string>();
   if (sequence.contains("fps") && !sequence["fps"].is_null()) options.fps = sequence["fps"].get<double>();
+  if (sequence.contains("pattern")) options.pattern = sequence["pattern"].get<std::string>();
   return options;
 }
 

@@ -76,6 +76,9 @@ std::vector<Cell> camera_row(const std::string& name, const CameraCalibration& c
   for (const double x : {camera.fx, camera.fy, camera.cx, camera.cy}) row.push_back({format_text("%.2f", x)});
   std::string distortion;
   for (const double k : camera.distortion) distortion += format_text("%s%.5g", distortion.empty() ? "" : " ", k);
+  for (const double k : camera.more_distortion) {
+    if (camera.more_distortion != std::array<double, 4>{}) distortion += format_text(" %.5g", k);
+  }
   row.push_back({camera.model == CameraModelKind::kPinhole ? "" : distortion});
   row.push_back({camera.readout_ms == 0 ? "" : format_text("%.1f", camera.readout_ms)});
   return row;

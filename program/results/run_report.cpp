@@ -61,6 +61,7 @@ Json self_calibration_json(const SequenceRun& run) {
             {"cx", camera.cx},
             {"cy", camera.cy},
             {"distortion", camera.distortion},
+            {"more_distortion", camera.more_distortion},
             {"readout_ms", camera.readout_ms}}}};
 }
 
@@ -91,6 +92,7 @@ Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
           {"reverse", options.reverse},
           {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
           {"fps", options.fps ? Json(*options.fps) : Json()},
+          {"pattern", options.pattern},
           {"camera", describe(calibration.camera, calibration.rectification)},
           {"calibration", calibration.description},
           {"response_known", calibration.photometric.inverse_response.has_value()},

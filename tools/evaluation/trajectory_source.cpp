@@ -1,7 +1,6 @@
 #include "evaluation/trajectory_source.h"
 
-#include <fstream>
-
+#include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/dataset.h"
 
@@ -27,23 +26,13 @@ std::optional<fs::path> find_kitti_times(const fs::path& poses) {
   return std::nullopt;
 }
 
-std::size_t count_pose_lines(const fs::path& path) {
-  std::ifstream file(path);
-  std::size_t count = 0;
-  for (std::string line; std::getline(file, line);) {
-    const auto first = line.find_first_not_of(" \t\r");
-    if (first != std::string::npos && line[first] != '#') ++count;
-  }
-  return count;
-}
-
 LoadedTrajectory load_kitti(const fs::path& path, std::optional<fs::path> times_file) {
   if (!times_file) times_file = find_kitti_times(path);
   if (times_file) {
     return {read_kitti_poses(path, read_times(*times_file)), "KITTI, times of " + times_file->filename().string(),
             true};
   }
-  std::vector<double> indices(count_pose_lines(path));
+  std::vector<double> indices(TextFile(path).lines().size());
   for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<double>(i);
   return {read_kitti_poses(path, indices), "KITTI, no times", false};
 }

@@ -13,11 +13,15 @@ namespace ldso {
 
 /// Reads a camera.txt of four lines (blank lines and lines that begin with '#' do not count):
 ///   1. the camera: `fx fy cx cy omega` or `FOV fx fy cx cy omega`, `Pinhole fx fy cx cy 0`,
-///      `RadTan fx fy cx cy k1 k2 p1 p2`, `KannalaBrandt` or `EquiDistant fx fy cx cy k1 k2 k3 k4`
+///      `RadTan fx fy cx cy k1 k2 p1 p2` with perhaps `k3` or `k3 k4 k5 k6`, `KannalaBrandt` or `EquiDistant fx fy cx
+///      cy k1 k2 k3 k4`, `DoubleSphere fx fy cx cy xi alpha`, `EUCM fx fy cx cy alpha beta`
 ///   2. width and height of the images
 ///   3. `crop`, `full`, `none` or the wanted intrinsics `fx fy cx cy 0`
 ///   4. width and height of the rectified images
 /// Intrinsics with cx and cy below 1 are relative to the image size, f * size and c * size - 0.5; others are in pixels.
+/// Files of other programs are read as well: Kalibr's camchain, ROS' camera_info, OpenCV's FileStorage, ORB-SLAM's
+/// settings, COLMAP's cameras.txt, Basalt's json, KITTI's calib_cam_to_cam.txt, nerfstudio's transforms.json; they are
+/// rectified by `crop` at the size of the images.
 /// `description` says which was read. Throws Error naming file, line and what is expected.
 Calibration read_camera_calibration(const std::filesystem::path& path);
 

@@ -49,6 +49,9 @@ struct DatasetOptions {
   std::optional<std::filesystem::path> calibration_file = std::nullopt;
   /// Frame rate of sequences without times [Hz].
   std::optional<double> fps = std::nullopt;
+  /// Names of the images that are used, of several kinds in one folder: `%d` stands for a number, `*` for any text, as
+  /// in "frame-%d.color.png". Empty: all, which have to be of one kind.
+  std::string pattern = {};
 };
 
 /// Recognizes the format of a folder or file and opens it, with start, end, stride and reverse applied.

@@ -13,6 +13,7 @@
 #include "experiment/results/results_file.h"
 #include "experiment/summary/comparison.h"
 #include "ldso/error.h"
+#include "terminal/option_checks.h"
 #include "util/format_text.h"
 
 namespace ldso {
@@ -73,12 +74,12 @@ void add_experiment_compare_command(CLI::App& experiment, int& exit_code) {
       ->add_option(
           "--max-loss", arguments->limits.overall,
           "Exit with code 3 if B's errors are larger by more than this on the whole, or a run fails in B alone")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->type_name("PERCENT");
   command
       ->add_option("--max-sequence-loss", arguments->limits.sequence,
                    "Exit with code 3 if those of any sequence and variant are")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->type_name("PERCENT");
   command->callback([arguments, &exit_code] { compare(*arguments, exit_code); });
 }

@@ -19,6 +19,7 @@
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
 #include "terminal/interrupt.h"
+#include "terminal/option_checks.h"
 #include "terminal/progress_bar.h"
 
 namespace ldso {
@@ -178,7 +179,7 @@ int run_experiment(ExperimentPlan plan, const ExperimentRunOptions& given) {
 void add_experiment_run_options(CLI::App& command, ExperimentRunOptions& options) {
   command.add_option("-o,--out", options.out, "Folder of the experiment; what it holds already is kept")->required();
   command.add_option("--jobs", options.jobs, "Jobs at a time (default: the plan's, else cores / threads of a job)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--only", options.only,
                   "Only jobs with this in their name (SEQUENCE/VARIANT/DIRECTION_NUMBER); * and ? as in a shell; "

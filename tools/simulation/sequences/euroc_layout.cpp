@@ -6,6 +6,7 @@
 #include "io/text/output_folder.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
+#include "ldso/io/calibration_file.h"
 #include "simulation/sequences/sequence_layout.h"
 #include "util/whole_file.h"
 
@@ -31,9 +32,11 @@ const char* distortion_model(const CameraCalibration& camera) {
     case CameraModelKind::kKannalaBrandt:
       return "equidistant";
     case CameraModelKind::kFov:
+    case CameraModelKind::kDoubleSphere:
+    case CameraModelKind::kEucm:
       break;
   }
-  throw Error("EuRoC layout", "it has no name for the FOV camera model",
+  throw Error("EuRoC layout", std::string("it has no name for the camera model ") + model_name(camera.model),
               "choose --lens pinhole, radtan or kannala-brandt");
 }
 
