@@ -52,6 +52,10 @@ Odometry::Odometry(const PinholeIntrinsics& camera, double readout_s, bool calib
       tracer_(settings.tracing, camera.width, camera.height, pool),
       keyframe_maker_(settings, priors_, pool, times_) {}
 
+std::unique_ptr<Odometry> Odometry::unstarted(const Settings& settings, ThreadPool& pool) const {
+  return std::make_unique<Odometry>(camera(), place_.readout_s, calibrated_, settings, pool);
+}
+
 std::unique_ptr<Odometry> Odometry::turned_back(ThreadPool& pool) const {
   if (state_ != TrackingState::kTracked) return nullptr;
   auto back = std::make_unique<Odometry>(camera(), place_.readout_s, calibrated_, settings_, pool);

@@ -40,6 +40,9 @@ class Odometry {
 
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
 
+  /// One that has seen nothing yet, for the same camera. `pool` must outlive it.
+  std::unique_ptr<Odometry> unstarted(const Settings& settings, ThreadPool& pool) const;
+
   /// One that goes on with a copy of the window from the frame that was tracked last, but back the way that the camera
   /// came: it expects the frames before that, newest first. Nothing if no frame is being tracked. `pool` must outlive
   /// it.

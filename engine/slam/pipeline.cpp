@@ -20,7 +20,17 @@ const Settings& validated(const Settings& settings) {
 }
 
 void add_times(const StageTimes& from, std::map<std::string, StageTime>& to) {
-  for (const auto& [stage, entry] : from.entries()) to[stage] = {entry.calls, entry.total_ms, entry.worst_ms};
+  for (const auto& [stage, entry] : from.entries()) {
+    StageTime& sum = to[stage];
+    sum = {sum.calls + entry.calls, sum.total_ms + entry.total_ms, std::max(sum.worst_ms, entry.worst_ms)};
+  }
+}
+
+/// Whether a second map is made beside the first one: which is better is known before the revision begins.
+bool has_second_start(const Settings& settings) {
+  const RevisionSettings& revision = settings.revision;
+  return revision.enabled && revision.second_frames < revision.frames &&
+         revision.second_parallax_angle > settings.initializer.good_parallax_angle;
 }
 
 /// Time in which a rolling shutter reads the rows that a rectified image shows.
@@ -38,6 +48,16 @@ void correct(const std::vector<KeyframePose>& poses, const Sim3d& correction, Sl
   }
 }
 
+/// Of a frame whose keyframe is in the window, or is one of those that left it.
+std::optional<SE3d> pose_in_world(const Odometry& odometry, const std::vector<FinishedKeyframe>& left,
+                                  const FrameRecord& record) {
+  for (const FinishedKeyframe& keyframe : left) {
+    if (record.state == TrackingState::kTracked && keyframe.update.frame_id == record.keyframe_id)
+      return keyframe.update.T_world_camera * record.T_keyframe_frame;
+  }
+  return pose_in_world(odometry.window(), record);
+}
+
 std::string frame_name(const FrameRecord& frame) { return "frame " + std::to_string(frame.frame_id); }
 
 }  // namespace
@@ -48,28 +68,50 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
       observer_(std::move(observer)),
       preprocessor_(calibration, validated(settings).photometry),
       pool_(settings.threads),
-      odometry_(preprocessor_.output_camera(), readout_s(calibration.camera, preprocessor_.output_camera()),
-                preprocessor_.photometrically_calibrated(), settings, pool_),
+      odometry_(std::make_unique<Odometry>(preprocessor_.output_camera(),
+                                           readout_s(calibration.camera, preprocessor_.output_camera()),
+                                           preprocessor_.photometrically_calibrated(), settings, pool_)),
       revision_(settings.revision, preprocessor_) {
   result_.camera = preprocessor_.output_camera();
   if (observer_) observer_->on_start(result_.camera);
+  if (has_second_start(settings)) second_ = std::make_unique<SecondStart>(*odometry_, settings, second_pool_);
   if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_);
 }
 
 const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame,
                                      const std::shared_ptr<const RawFrame>& raw) {
   const Clock::time_point start = Clock::now();
-  OdometryOutput output = odometry_.process(frame);
+  OdometryOutput output = odometry_->process(frame);
   const double frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   times_.add("odometry", frame_ms);
   tell(output, frame, frame_ms);
-  RevisedStart revised = revision_.add(odometry_, raw, output);
+  const bool can_choose = second_ && second_->add(frame, output);
+  RevisedStart revised = revision_.add(*odometry_, raw, output);
   for (FrameRecord& late : output.late) replace(std::move(late));
   apply(std::move(revised));
   finish_keyframes(std::move(output.finished));
   note_change(output.frame);
   state_ = output.frame.state;
-  return record(std::move(output.frame));
+  record(std::move(output.frame));
+  if (can_choose) choose_map();
+  return result_.frames.back();
+}
+
+void Pipeline::choose_map() {
+  std::string verdict;
+  std::optional<SecondMap> second = second_->finish(verdict);
+  second_.reset();
+  if (!second) return;
+  log_to(log_, LogLevel::kInfo, verdict);
+  add_times(odometry_->times(), result_.stage_times);
+  odometry_ = std::move(second->odometry);
+  second_pool_.grow(pool_.threads());
+  result_.initializations = {second->start};
+  for (const FrameRecord& record : second->records) {
+    if (observer_) observer_->on_frame({record, true, pose_in_world(*odometry_, second->keyframes, record)});
+    replace(record);
+  }
+  revision_.replace_map(second->records, std::move(second->keyframes));
 }
 
 void Pipeline::apply(RevisedStart&& revised) {
@@ -84,7 +126,7 @@ void Pipeline::apply(RevisedStart&& revised) {
 
 void Pipeline::tell(const OdometryOutput& output, const std::shared_ptr<const PreparedFrame>& frame, double frame_ms) {
   if (!observer_) return;
-  const Window& window = odometry_.window();
+  const Window& window = odometry_->window();
   FrameEvent event;
   event.frame = output.frame;
   event.T_world_camera = pose_in_world(window, output.frame);
@@ -152,8 +194,8 @@ void Pipeline::replace(FrameRecord late) {
 }
 
 void Pipeline::note_change(const FrameRecord& frame) {
-  if (odometry_.restarts() > restarts_) {
-    restarts_ = odometry_.restarts();
+  if (odometry_->restarts() > restarts_) {
+    restarts_ = odometry_->restarts();
     const bool is_tracked = frame.state == TrackingState::kTracked;
     log_to(log_, LogLevel::kWarning,
            frame_name(frame) + ": " + (is_tracked ? "the lost map is left and a new one begins" : frame.reason));
@@ -170,7 +212,7 @@ void Pipeline::note_change(const FrameRecord& frame) {
 
 std::optional<SE3d> Pipeline::T_world_camera() const {
   if (result_.frames.empty()) return std::nullopt;
-  const std::optional<SE3d> T = pose_in_world(odometry_.window(), result_.frames.back());
+  const std::optional<SE3d> T = pose_in_world(odometry_->window(), result_.frames.back());
   if (!T) return std::nullopt;
   const Sim3d S = loops_ ? loops_->correction() : Sim3d();
   return SE3d(S.rotation() * T->rotation(), S * T->translation());
@@ -179,8 +221,8 @@ std::optional<SE3d> Pipeline::T_world_camera() const {
 void Pipeline::complete(SlamResult& result) const {
   std::stable_sort(result.keyframes.begin(), result.keyframes.end(),
                    [](const auto& a, const auto& b) { return a.frame_id < b.frame_id; });
-  result.camera = odometry_.camera();
-  result.restarts = odometry_.restarts();
+  result.camera = odometry_->camera();
+  result.restarts = odometry_->restarts();
 }
 
 SlamResult Pipeline::snapshot() {
@@ -189,7 +231,7 @@ SlamResult Pipeline::snapshot() {
     result.keyframes.push_back(keyframe.update);
     result.keyframes.back().constraints.clear();
   }
-  for (FinishedKeyframe& keyframe : odometry_.window_keyframes()) {
+  for (FinishedKeyframe& keyframe : odometry_->window_keyframes()) {
     if (revision_.replaces(keyframe.update)) continue;
     result.keyframes.push_back(std::move(keyframe.update));
     result.keyframes.back().constraints.clear();
@@ -203,12 +245,13 @@ SlamResult Pipeline::snapshot() {
 }
 
 SlamResult Pipeline::finish() {
-  apply(revision_.finish(odometry_));
-  finish_keyframes(odometry_.window_keyframes());
+  if (second_) choose_map();
+  apply(revision_.finish(*odometry_));
+  finish_keyframes(odometry_->window_keyframes());
   complete(result_);
   close_loops();
   add_times(times_, result_.stage_times);
-  add_times(odometry_.times(), result_.stage_times);
+  add_times(odometry_->times(), result_.stage_times);
   if (revision_.milliseconds() > 0)
     result_.stage_times["revision"] = {1, revision_.milliseconds(), revision_.milliseconds()};
   return std::move(result_);

@@ -16,6 +16,7 @@
 #include "ldso/slam.h"
 #include "odometry/odometry.h"
 #include "slam/loop_thread.h"
+#include "slam/second_start.h"
 #include "slam/start_revision.h"
 #include "util/stopwatch.h"
 #include "util/thread_pool.h"
@@ -46,9 +47,9 @@ class Pipeline {
   /// number of keyframes ago.
   std::optional<SE3d> T_world_camera() const;
 
-  int keyframes() const { return odometry_.keyframes(); }
+  int keyframes() const { return odometry_->keyframes(); }
   /// The keyframes that are being optimized.
-  const Window& window() const { return odometry_.window(); }
+  const Window& window() const { return odometry_->window(); }
   /// For stages outside of the pipeline whose time belongs to the result.
   StageTimes& times() { return times_; }
 
@@ -66,6 +67,8 @@ class Pipeline {
   /// Those that no others have replaced.
   void finish_keyframes(std::vector<FinishedKeyframe> keyframes);
   void finish_keyframe(FinishedKeyframe&& keyframe);
+  /// Goes on with the second map if it is better than the first.
+  void choose_map();
   /// Takes over what the revision has decided.
   void apply(RevisedStart&& revised);
   /// Tells the observer, if there is one.
@@ -81,9 +84,11 @@ class Pipeline {
   std::shared_ptr<RunObserver> observer_;
   FramePreprocessor preprocessor_;
   ThreadPool pool_;
-  Odometry odometry_;
+  ThreadPool second_pool_{1};  ///< Of the second map.
+  std::unique_ptr<Odometry> odometry_;
   StartRevision revision_;
-  std::unique_ptr<LoopThread> loops_;  ///< None with loop closing off.
+  std::unique_ptr<SecondStart> second_;  ///< While both maps are young.
+  std::unique_ptr<LoopThread> loops_;    ///< None with loop closing off.
   StageTimes times_;
   SlamResult result_;
   TrackingState state_ = TrackingState::kInitializing;  ///< Of the newest frame that was not skipped.

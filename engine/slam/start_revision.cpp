@@ -70,6 +70,16 @@ RevisedStart StartRevision::finish(const Odometry& odometry) {
   return stage_ == Stage::kPassing ? decide(odometry) : release();
 }
 
+void StartRevision::replace_map(const std::vector<FrameRecord>& records, std::vector<FinishedKeyframe> keyframes) {
+  for (const FrameRecord& record : records) {
+    const auto same = std::find_if(records_.begin(), records_.end(),
+                                   [&](const FrameRecord& known) { return known.frame_id == record.frame_id; });
+    if (same != records_.end()) *same = record;
+  }
+  held_ = std::move(keyframes);
+  for (FinishedKeyframe& keyframe : held_) pack(images_, keyframe);
+}
+
 RevisedStart StartRevision::change_map(const Odometry& odometry, OdometryOutput& output) {
   restarts_ = odometry.restarts();
   hold(output);

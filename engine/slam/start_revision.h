@@ -41,6 +41,10 @@ class StartRevision {
   /// replaced are taken out of `output` and kept. What is decided with this frame.
   RevisedStart add(const Odometry& odometry, const std::shared_ptr<const RawFrame>& raw, OdometryOutput& output);
 
+  /// Another map takes the place of the one that is kept track of, which is not mature yet: the records of its frames,
+  /// and the keyframes that left its window.
+  void replace_map(const std::vector<FrameRecord>& records, std::vector<FinishedKeyframe> keyframes);
+
   /// No frame follows: what is decided with that.
   RevisedStart finish(const Odometry& odometry);
 

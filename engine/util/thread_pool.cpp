@@ -7,8 +7,10 @@
 
 namespace ldso {
 
-ThreadPool::ThreadPool(int threads) {
-  for (int i = 1; i < threads; ++i) {
+ThreadPool::ThreadPool(int threads) { grow(threads); }
+
+void ThreadPool::grow(int threads) {
+  while (this->threads() < threads) {
     workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
   }
 }

@@ -26,6 +26,9 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
+  /// From now on there are at least so many. Not while a loop runs.
+  void grow(int threads);
+
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls `task(chunk)` for chunk = 0..chunks-1, in any order on any thread; returns when all are done.

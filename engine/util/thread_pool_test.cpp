@@ -39,6 +39,17 @@ TEST(ThreadPool, RethrowsTheErrorOfATaskAndStaysUsable) {
   EXPECT_EQ(std::accumulate(hits.begin(), hits.end(), 0), 100);
 }
 
+TEST(ThreadPool, MayGrowBetweenLoops) {
+  ThreadPool pool(1);
+  std::vector<int> hits(1000, 0);
+  const auto hit = [&](int chunk) { ++hits[chunk]; };
+  pool.run(1000, hit);
+  pool.grow(3);
+  EXPECT_EQ(pool.threads(), 3);
+  for (int loop = 0; loop < 50; ++loop) pool.run(1000, hit);
+  EXPECT_EQ(hits, std::vector<int>(1000, 51));
+}
+
 TEST(ThreadPool, NoWorkReturnsAtOnce) {
   ThreadPool pool(2);
   pool.for_chunks(0, 10, [](int, int, int) { FAIL(); });

@@ -80,6 +80,8 @@ struct RevisionSettings {
   int patience = 75;
   double most_residual = 0.97;
   double doubtful_residual = 1.08;
+  double second_parallax_angle = 4;
+  int second_frames = 120;
 
   static constexpr auto fields() {
     using S = RevisionSettings;
@@ -97,6 +99,12 @@ struct RevisionSettings {
         field("doubtful_residual", &S::doubtful_residual,
               "The same from which on the map itself is doubtful, unless the camera drives straight on.", at_least(0),
               kMeasured, kExpert),
+        field("second_parallax_angle", &S::second_parallax_angle,
+              "Parallax that a second map waits for beside the first one; 0: there is none.", in_range(0, 90),
+              in_unit("deg"), kMeasured, kExpert),
+        field("second_frames", &S::second_frames,
+              "Age of the first map at which that with the smaller residuals is kept, less than `frames`.",
+              in_range(1, 100000), in_unit("frames"), kMeasured, kExpert),
     };
   }
 };

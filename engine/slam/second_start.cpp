@@ -1,0 +1,102 @@
+#include "slam/second_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+#include "util/median.h"
+
+namespace ldso {
+namespace {
+
+/// Frames that the second odometry may be behind: each holds its pyramid.
+constexpr std::size_t kMostBehind = 4;
+/// Fewer frames tell nothing.
+constexpr std::size_t kLeastCompared = 20;
+
+Settings patient(Settings settings) {
+  settings.initializer.good_parallax_angle = settings.revision.second_parallax_angle;
+  return settings;
+}
+
+/// Keeps the records of `output` among those of the frames before.
+void keep(const OdometryOutput& output, std::vector<FrameRecord>& records) {
+  records.push_back(output.frame);
+  for (const FrameRecord& late : output.late) {
+    const auto same = std::find_if(records.rbegin(), records.rend(),
+                                   [&](const FrameRecord& record) { return record.frame_id == late.frame_id; });
+    if (same != records.rend()) *same = late;
+  }
+}
+
+}  // namespace
+
+SecondStart::SecondStart(const Odometry& odometry, const Settings& settings, ThreadPool& pool)
+    : settings_(settings.revision),
+      map_{odometry.unstarted(patient(settings), pool), {}, {}, -1},
+      queue_(kMostBehind),
+      thread_([this](const std::stop_token& stop) { work(stop); }) {}
+
+SecondStart::~SecondStart() {
+  thread_.request_stop();
+  queue_.close();
+}
+
+void SecondStart::work(const std::stop_token& stop) {
+  while (const auto frame = queue_.pop()) {
+    if (stop.stop_requested() || !failure_.empty()) continue;
+    try {
+      OdometryOutput output = map_.odometry->process(*frame);
+      keep(output, map_.records);
+      if (start_ < 0 && output.frame.state == TrackingState::kTracked) start_ = output.frame.frame_id;
+      std::move(output.finished.begin(), output.finished.end(), std::back_inserter(map_.keyframes));
+    } catch (const std::exception& failure) {
+      failure_ = failure.what();
+    }
+  }
+}
+
+bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const OdometryOutput& first) {
+  keep(first, first_records_);
+  const bool is_tracked = first.frame.state == TrackingState::kTracked;
+  if (is_tracked && first_start_ < 0) first_start_ = first.frame.frame_id;
+  if (first_start_ >= 0) ++age_;
+  // A loss has its own remedies; and who begins with the same frame comes to the same map.
+  is_over_ = is_over_ || (first_start_ >= 0 && (!is_tracked || start_ == first_start_));
+  if (!is_over_) queue_.push(frame);
+  return is_over_ || age_ >= settings_.second_frames;
+}
+
+std::optional<SecondMap> SecondStart::finish(std::string& verdict) {
+  if (is_over_) thread_.request_stop();
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+  if (is_over_ || start_ == first_start_ || !failure_.empty()) return std::nullopt;
+  const double ratio = residual_ratio();
+  if (!(ratio <= settings_.most_residual)) return std::nullopt;
+  verdict = "a map that began later, with more parallax, explains the images better (residuals " +
+            std::to_string(std::lround(100 * (ratio - 1))) + " %): it takes the place of the first one";
+  map_.start = start_;
+  return std::move(map_);
+}
+
+double SecondStart::residual_ratio() const {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (map_.odometry->restarts() > 0) return kNone;
+  std::unordered_map<std::int64_t, const FrameRecord*> second;
+  for (const FrameRecord& record : map_.records) second[record.frame_id] = &record;
+  std::vector<double> ratios;
+  for (const FrameRecord& first : first_records_) {
+    const auto found = second.find(first.frame_id);
+    const bool is_tracked = found != second.end() && found->second->state == TrackingState::kTracked;
+    if (first.state != TrackingState::kTracked) continue;
+    if (!is_tracked && !ratios.empty()) return kNone;
+    if (is_tracked && first.residual_rmse > 0 && found->second->residual_rmse > 0)
+      ratios.push_back(found->second->residual_rmse / first.residual_rmse);
+  }
+  return ratios.size() < kLeastCompared ? kNone : upper_median(ratios);
+}
+
+}  // namespace ldso

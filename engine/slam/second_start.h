@@ -1,0 +1,63 @@
+#pragma once
+
+// A second odometry beside the first one, on a thread of its own, on the same frames: it waits for more parallax before
+// its map begins. Which of both starts was better nobody can tell from the first two images; a hundred frames later
+// their residuals tell. The map of the one that explains the same images worse is given up.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ldso/settings.h"
+#include "odometry/odometry.h"
+#include "util/bounded_queue.h"
+#include "util/thread_pool.h"
+
+namespace ldso {
+
+/// What the second odometry has come to.
+struct SecondMap {
+  std::unique_ptr<Odometry> odometry;
+  std::vector<FrameRecord> records;         ///< Of all frames, as they are known now.
+  std::vector<FinishedKeyframe> keyframes;  ///< That left its window.
+  std::int64_t start = -1;                  ///< The frame at which it began.
+};
+
+class SecondStart {
+ public:
+  /// `odometry`: the first one, before its first frame. `pool` is used by the second one alone, and must outlive it.
+  SecondStart(const Odometry& odometry, const Settings& settings, ThreadPool& pool);
+  ~SecondStart();
+  SecondStart(const SecondStart&) = delete;
+  SecondStart& operator=(const SecondStart&) = delete;
+
+  /// A frame, after the first odometry has processed it. Waits while the second one is several frames behind. True once
+  /// all is known that decides: what follows then is finish().
+  bool add(const std::shared_ptr<const PreparedFrame>& frame, const OdometryOutput& first);
+
+  /// The second map, if it is better. `verdict`: for the log; empty if there is nothing to say.
+  std::optional<SecondMap> finish(std::string& verdict);
+
+ private:
+  void work(const std::stop_token& stop);
+  /// Median over the frames that both track of the second map's residuals relative to the first one's; infinite if it
+  /// does not track all of them from its start on, or has not begun.
+  double residual_ratio() const;
+
+  RevisionSettings settings_;
+  std::vector<FrameRecord> first_records_;
+  std::int64_t first_start_ = -1;  ///< The frame at which the first map began.
+  int age_ = 0;                    ///< Of the first map [frames].
+  bool is_over_ = false;           ///< The first map is lost, or both are the same.
+  SecondMap map_;
+  std::atomic<std::int64_t> start_ = -1;  ///< The frame at which the second map began.
+  std::string failure_;
+  BoundedQueue<std::shared_ptr<const PreparedFrame>> queue_;
+  std::jthread thread_;  ///< Declared last: it uses the others and is joined first.
+};
+
+}  // namespace ldso
