@@ -85,16 +85,17 @@ std::optional<SecondMap> SecondStart::finish(std::string& verdict) {
 double SecondStart::residual_ratio() const {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   if (map_.odometry->restarts() > 0) return kNone;
-  std::unordered_map<std::int64_t, const FrameRecord*> second;
-  for (const FrameRecord& record : map_.records) second[record.frame_id] = &record;
+  std::unordered_map<std::int64_t, float> second;
+  for (const FrameRecord& record : map_.records) {
+    if (record.state == TrackingState::kTracked) second[record.frame_id] = record.residual_rmse;
+  }
   std::vector<double> ratios;
   for (const FrameRecord& first : first_records_) {
-    const auto found = second.find(first.frame_id);
-    const bool is_tracked = found != second.end() && found->second->state == TrackingState::kTracked;
     if (first.state != TrackingState::kTracked) continue;
-    if (!is_tracked && !ratios.empty()) return kNone;
-    if (is_tracked && first.residual_rmse > 0 && found->second->residual_rmse > 0)
-      ratios.push_back(found->second->residual_rmse / first.residual_rmse);
+    const auto found = second.find(first.frame_id);
+    if (found == second.end() && !ratios.empty()) return kNone;
+    if (found != second.end() && first.residual_rmse > 0 && found->second > 0)
+      ratios.push_back(found->second / first.residual_rmse);
   }
   return ratios.size() < kLeastCompared ? kNone : upper_median(ratios);
 }

@@ -74,7 +74,9 @@ void StartRevision::replace_map(const std::vector<FrameRecord>& records, std::ve
   for (const FrameRecord& record : records) {
     const auto same = std::find_if(records_.begin(), records_.end(),
                                    [&](const FrameRecord& known) { return known.frame_id == record.frame_id; });
-    if (same != records_.end()) *same = record;
+    if (same == records_.end()) continue;
+    lacks_first_ |= same->state == TrackingState::kTracked && record.state != TrackingState::kTracked;
+    *same = record;
   }
   held_ = std::move(keyframes);
   for (FinishedKeyframe& keyframe : held_) pack(images_, keyframe);
@@ -87,6 +89,7 @@ RevisedStart StartRevision::change_map(const Odometry& odometry, OdometryOutput&
   RevisedStart revised = stage_ == Stage::kPassing ? decide(odometry) : release();
   stage_ = Stage::kCollecting;
   frames_ = 0;
+  lacks_first_ = false;
   return revised;
 }
 
@@ -189,8 +192,9 @@ StartRevision::Judgement StartRevision::judge(const BackwardPass& pass) const {
   if (ratios.empty()) return {false, false, "there are none to compare"};
   const double ratio = upper_median(ratios);
   const bool drives_on = along_axis(pass) > kDrivesOn;
-  return {ratio <= settings_.most_residual, ratio >= settings_.doubtful_residual && !drives_on,
-          "residuals differ by " + percent(ratio)};
+  // Frames that have no pose any more get one again unless the others fit worse for certain.
+  const double most = lacks_first_ ? 1 / std::max(0.5, settings_.most_residual) : settings_.most_residual;
+  return {ratio <= most, ratio >= settings_.doubtful_residual && !drives_on, "residuals differ by " + percent(ratio)};
 }
 
 SE3d StartRevision::T_world_turn(const Odometry& odometry) const {

@@ -96,6 +96,7 @@ class StartRevision {
   std::int64_t frames_ = 0;   ///< Since the map began, or since the pass did.
   std::int64_t turn_ = -1;    ///< Newest keyframe of the window with which the pass began.
   bool is_accepted_ = false;  ///< The pass stands.
+  bool lacks_first_ = false;  ///< First frames have lost the poses that they had in a map that was replaced.
   int segment_ = 0;           ///< The map that it passes.
   /// Oldest first; after the turn of keyframes alone.
   std::vector<std::shared_ptr<const PackedFrame>> images_;
