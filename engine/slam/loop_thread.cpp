@@ -5,6 +5,7 @@
 
 #include "place/default_vocabulary.h"
 #include "place/vocabulary_file.h"
+#include "slam/packed_keyframe.h"
 #include "util/log.h"
 #include "util/out_of_memory.h"
 
@@ -18,12 +19,14 @@ std::shared_ptr<const Vocabulary> read_given(const LoopSettings& settings) {
 
 }  // namespace
 
-LoopThread::LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
+LoopThread::LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer,
+                       const FramePreprocessor* preprocessor)
     : log_(std::move(log)),
       settings_(settings),
       correction_lag_(static_cast<std::size_t>(settings.correction_lag)),
       max_waiting_(static_cast<std::size_t>(settings.max_waiting)),
       vocabulary_(read_given(settings)),
+      preprocessor_(preprocessor),
       queue_(max_waiting_),
       observer_(std::move(observer)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
@@ -80,8 +83,9 @@ void LoopThread::remember() {
 void LoopThread::process(const std::stop_token& stop) {
   if (!vocabulary_) vocabulary_ = std::make_shared<const Vocabulary>(default_vocabulary());
   closer_ = std::make_unique<LoopCloser>(vocabulary_, settings_);
-  while (const std::optional<FinishedKeyframe> keyframe = queue_.pop()) {
+  while (std::optional<FinishedKeyframe> keyframe = queue_.pop()) {
     if (stop.stop_requested()) return;
+    if (preprocessor_ != nullptr) unpack(*preprocessor_, *keyframe);
     closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->update.camera);
     remember();
     publish(closer_->correction());

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "image/frame_preprocessor.h"
 #include "ldso/log.h"
 #include "ldso/observer.h"
 #include "ldso/settings.h"
@@ -32,8 +33,10 @@ struct KnownLoops {
 
 class LoopThread {
  public:
-  /// Throws Error if `settings.vocabulary` names a file that cannot be read.
-  LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer = {});
+  /// `preprocessor`: makes the images of keyframes that come packed; it must outlive this. Throws Error if
+  /// `settings.vocabulary` names a file that cannot be read.
+  LoopThread(const LoopSettings& settings, LogSink log, std::shared_ptr<RunObserver> observer = {},
+             const FramePreprocessor* preprocessor = nullptr);
   /// Without finish() before it, keyframes that wait are dropped and no loop is closed.
   ~LoopThread();
   LoopThread(const LoopThread&) = delete;
@@ -67,6 +70,7 @@ class LoopThread {
   LoopSettings settings_;
   std::size_t correction_lag_, max_waiting_;      ///< [keyframes]
   std::shared_ptr<const Vocabulary> vocabulary_;  ///< None: the built-in one.
+  const FramePreprocessor* preprocessor_;
   BoundedQueue<FinishedKeyframe> queue_;
   std::unique_ptr<LoopCloser> closer_;  ///< Of the thread, until it is joined.
   bool failed_ = false;

@@ -75,7 +75,7 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
   result_.camera = preprocessor_.output_camera();
   if (observer_) observer_->on_start(result_.camera);
   if (has_second_start(settings)) second_ = std::make_unique<SecondStart>(*odometry_, settings, second_pool_);
-  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_);
+  if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_, &preprocessor_);
 }
 
 const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>& frame,
@@ -149,7 +149,6 @@ void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
   result_.keyframes.push_back(loops_ ? keyframe.update : std::move(keyframe.update));
   result_.keyframes.back().constraints.clear();
   if (!loops_) return;
-  unpack(preprocessor_, keyframe);
   loops_->add(std::move(keyframe));
 }
 

@@ -77,7 +77,7 @@ struct RevisionSettings {
   bool enabled = true;
   int frames = 150;
   int least_frames = 30;
-  int patience = 75;
+  int patience = 150;
   double most_residual = 0.97;
   double doubtful_residual = 1.08;
   double second_parallax_angle = 4;
