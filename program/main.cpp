@@ -9,6 +9,9 @@
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "commands/commands.h"
 #include "commands/experiment/experiment_commands.h"
@@ -24,12 +27,21 @@ void set_up_opencv() {
   if (std::getenv("OPENCV_LOG_LEVEL") == nullptr) cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 }
 
+/// Images are made on one thread and let go of on another. With a heap for each thread, as glibc has them, every one of
+/// them keeps what was largest once: the kitchen with self-calibration took 685 MB instead of 382.
+void set_up_heap() {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
 #ifdef __linux__
   prctl(PR_SET_NAME, "ldso");  // Jobs of experiments are started as /proc/self/exe and would be called "exe".
 #endif
+  set_up_heap();
   set_up_opencv();
   CLI::App app("Monocular direct visual SLAM: images to a camera trajectory and a sparse map", "ldso");
   app.set_version_flag("--version", "ldso " + ldso::project_version() + " (" + ldso::compiler_version() + ")");
