@@ -6,6 +6,7 @@
 
 #include "geometry/rolling_shutter.h"
 #include "slam/live_view.h"
+#include "slam/replace_record.h"
 #include "util/log.h"
 
 namespace ldso {
@@ -87,7 +88,7 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
   tell(output, frame, frame_ms);
   const bool can_choose = second_ && second_->add(frame, output);
   RevisedStart revised = revision_.add(*odometry_, raw, output);
-  for (FrameRecord& late : output.late) replace(std::move(late));
+  for (const FrameRecord& late : output.late) replace_record(result_.frames, late);
   apply(std::move(revised));
   finish_keyframes(std::move(output.finished));
   note_change(output.frame);
@@ -109,7 +110,7 @@ void Pipeline::choose_map() {
   result_.initializations = {second->start};
   for (const FrameRecord& record : second->records) {
     if (observer_) observer_->on_frame({record, true, pose_in_world(*odometry_, second->keyframes, record)});
-    replace(record);
+    replace_record(result_.frames, record);
   }
   revision_.replace_map(second->records, std::move(second->keyframes));
 }
@@ -120,7 +121,7 @@ void Pipeline::apply(RevisedStart&& revised) {
   for (FinishedKeyframe& keyframe : revised.keyframes) finish_keyframe(std::move(keyframe));
   for (PosedFrame& frame : revised.frames) {
     if (observer_) observer_->on_frame({frame.record, true, frame.T_world_camera});
-    replace(std::move(frame.record));
+    replace_record(result_.frames, frame.record);
   }
 }
 
@@ -183,13 +184,6 @@ const FrameRecord& Pipeline::skip(std::int64_t frame_id, double timestamp, const
 const FrameRecord& Pipeline::record(FrameRecord frame) {
   result_.frames.push_back(std::move(frame));
   return result_.frames.back();
-}
-
-void Pipeline::replace(FrameRecord late) {
-  // Late records are of the last few frames: the search from the back is short.
-  const auto same = std::find_if(result_.frames.rbegin(), result_.frames.rend(),
-                                 [&](const FrameRecord& frame) { return frame.frame_id == late.frame_id; });
-  if (same != result_.frames.rend()) *same = std::move(late);
 }
 
 void Pipeline::note_change(const FrameRecord& frame) {

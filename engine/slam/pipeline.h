@@ -62,8 +62,6 @@ class Pipeline {
 
  private:
   const FrameRecord& record(FrameRecord frame);
-  /// What was said of an earlier frame is superseded.
-  void replace(FrameRecord late);
   /// Those that no others have replaced.
   void finish_keyframes(std::vector<FinishedKeyframe> keyframes);
   void finish_keyframe(FinishedKeyframe&& keyframe);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <unordered_map>
 #include <utility>
 
+#include "slam/replace_record.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -24,11 +26,7 @@ Settings patient(Settings settings) {
 /// Keeps the records of `output` among those of the frames before.
 void keep(const OdometryOutput& output, std::vector<FrameRecord>& records) {
   records.push_back(output.frame);
-  for (const FrameRecord& late : output.late) {
-    const auto same = std::find_if(records.rbegin(), records.rend(),
-                                   [&](const FrameRecord& record) { return record.frame_id == late.frame_id; });
-    if (same != records.rend()) *same = late;
-  }
+  for (const FrameRecord& late : output.late) replace_record(records, late);
 }
 
 }  // namespace

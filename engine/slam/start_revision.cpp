@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "slam/replace_record.h"
 #include "util/median.h"
 
 namespace ldso {
@@ -71,13 +72,7 @@ RevisedStart StartRevision::finish(const Odometry& odometry) {
 }
 
 void StartRevision::replace_map(const std::vector<FrameRecord>& records, std::vector<FinishedKeyframe> keyframes) {
-  for (const FrameRecord& record : records) {
-    const auto same = std::find_if(records_.begin(), records_.end(),
-                                   [&](const FrameRecord& known) { return known.frame_id == record.frame_id; });
-    if (same == records_.end()) continue;
-    lacks_first_ |= same->state == TrackingState::kTracked && record.state != TrackingState::kTracked;
-    *same = record;
-  }
+  for (const FrameRecord& record : records) lacks_first_ |= replace_record(records_, record);
   held_ = std::move(keyframes);
   for (FinishedKeyframe& keyframe : held_) pack(images_, keyframe);
 }
@@ -98,11 +93,7 @@ void StartRevision::collect(const std::shared_ptr<const RawFrame>& raw, const Od
   if (raw && (is_before_turn || output.frame.is_keyframe)) images_.push_back(std::make_shared<const PackedFrame>(*raw));
   if (!is_before_turn) return;
   records_.push_back(output.frame);
-  for (const FrameRecord& late : output.late) {
-    const auto same = std::find_if(records_.rbegin(), records_.rend(),
-                                   [&](const FrameRecord& record) { return record.frame_id == late.frame_id; });
-    if (same != records_.rend()) *same = late;
-  }
+  for (const FrameRecord& late : output.late) replace_record(records_, late);
   const auto most = static_cast<std::size_t>(frames_) + kMostWaiting;
   if (images_.size() > most) images_.erase(images_.begin());
   if (records_.size() > most) records_.erase(records_.begin());
