@@ -23,12 +23,6 @@ Settings patient(Settings settings) {
   return settings;
 }
 
-/// Keeps the records of `output` among those of the frames before.
-void keep(const OdometryOutput& output, std::vector<FrameRecord>& records) {
-  records.push_back(output.frame);
-  for (const FrameRecord& late : output.late) replace_record(records, late);
-}
-
 }  // namespace
 
 SecondStart::SecondStart(const Odometry& odometry, const Settings& settings, ThreadPool& pool)
@@ -47,7 +41,8 @@ void SecondStart::work(const std::stop_token& stop) {
     if (stop.stop_requested() || !failure_.empty()) continue;
     try {
       OdometryOutput output = map_.odometry->process(*frame);
-      keep(output, map_.records);
+      map_.records.push_back(output.frame);
+      for (const FrameRecord& late : output.late) replace_record(map_.records, late);
       if (start_ < 0 && output.frame.state == TrackingState::kTracked) start_ = output.frame.frame_id;
       std::move(output.finished.begin(), output.finished.end(), std::back_inserter(map_.keyframes));
     } catch (const std::exception& failure) {
@@ -56,10 +51,9 @@ void SecondStart::work(const std::stop_token& stop) {
   }
 }
 
-bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const OdometryOutput& first) {
-  keep(first, first_records_);
-  const bool is_tracked = first.frame.state == TrackingState::kTracked;
-  if (is_tracked && first_start_ < 0) first_start_ = first.frame.frame_id;
+bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const FrameRecord& first) {
+  const bool is_tracked = first.state == TrackingState::kTracked;
+  if (is_tracked && first_start_ < 0) first_start_ = first.frame_id;
   if (first_start_ >= 0) ++age_;
   // A loss has its own remedies; and who begins with the same frame comes to the same map.
   is_over_ = is_over_ || (first_start_ >= 0 && (!is_tracked || start_ == first_start_));
@@ -67,12 +61,12 @@ bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const O
   return is_over_ || age_ >= settings_.second_frames;
 }
 
-std::optional<SecondMap> SecondStart::finish(std::string& verdict) {
+std::optional<SecondMap> SecondStart::finish(const std::vector<FrameRecord>& first, std::string& verdict) {
   if (is_over_) thread_.request_stop();
   queue_.close();
   if (thread_.joinable()) thread_.join();
   if (is_over_ || start_ == first_start_ || !failure_.empty()) return std::nullopt;
-  const double ratio = residual_ratio();
+  const double ratio = residual_ratio(first);
   if (!(ratio <= settings_.most_residual)) return std::nullopt;
   verdict = "a map that began later, with more parallax, explains the images better (residuals " +
             std::to_string(std::lround(100 * (ratio - 1))) + " %): it takes the place of the first one";
@@ -80,7 +74,7 @@ std::optional<SecondMap> SecondStart::finish(std::string& verdict) {
   return std::move(map_);
 }
 
-double SecondStart::residual_ratio() const {
+double SecondStart::residual_ratio(const std::vector<FrameRecord>& first_records) const {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   if (map_.odometry->restarts() > 0) return kNone;
   std::unordered_map<std::int64_t, float> second;
@@ -88,7 +82,7 @@ double SecondStart::residual_ratio() const {
     if (record.state == TrackingState::kTracked) second[record.frame_id] = record.residual_rmse;
   }
   std::vector<double> ratios;
-  for (const FrameRecord& first : first_records_) {
+  for (const FrameRecord& first : first_records) {
     if (first.state != TrackingState::kTracked) continue;
     const auto found = second.find(first.frame_id);
     if (found == second.end() && !ratios.empty()) return kNone;

@@ -35,21 +35,21 @@ class SecondStart {
   SecondStart(const SecondStart&) = delete;
   SecondStart& operator=(const SecondStart&) = delete;
 
-  /// A frame, after the first odometry has processed it. Waits while the second one is several frames behind. True once
+  /// A frame, and what the first odometry said of it. Waits while the second one is several frames behind. True once
   /// all is known that decides: what follows then is finish().
-  bool add(const std::shared_ptr<const PreparedFrame>& frame, const OdometryOutput& first);
+  bool add(const std::shared_ptr<const PreparedFrame>& frame, const FrameRecord& first);
 
-  /// The second map, if it is better. `verdict`: for the log; empty if there is nothing to say.
-  std::optional<SecondMap> finish(std::string& verdict);
+  /// The second map, if it is better. `first`: the records of the frames with the first one, as they are known now.
+  /// `verdict`: for the log; empty if there is nothing to say.
+  std::optional<SecondMap> finish(const std::vector<FrameRecord>& first, std::string& verdict);
 
  private:
   void work(const std::stop_token& stop);
   /// Median over the frames that both track of the second map's residuals relative to the first one's; infinite if it
   /// does not track all of them from its start on, or has not begun.
-  double residual_ratio() const;
+  double residual_ratio(const std::vector<FrameRecord>& first_records) const;
 
   RevisionSettings settings_;
-  std::vector<FrameRecord> first_records_;
   std::int64_t first_start_ = -1;  ///< The frame at which the first map began.
   int age_ = 0;                    ///< Of the first map [frames].
   bool is_over_ = false;           ///< The first map is lost, or both are the same.

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "ldso/slam.h"
 #include "slam/pipeline.h"
@@ -80,7 +81,7 @@ TEST(SecondStart, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(SecondStart, WithoutMoreParallaxThereIsNone) {
-  std::string log, without_log;
+  std::string log;
   Settings settings = two_maps(1e3);
   settings.revision.second_parallax_angle = 0;
   run(settings, log);
@@ -96,12 +97,14 @@ TEST(SecondStart, TwoMapsThatBeginTogetherAreOne) {
   Settings same = settings;
   same.revision.second_parallax_angle = settings.initializer.good_parallax_angle;
   SecondStart second(odometry, same, second_pool);
+  std::vector<FrameRecord> records;
   for (int i = 0; i < kFrames; ++i) {
     const auto frame = std::make_shared<const PreparedFrame>(preprocessor.process(raw_frame(i, draw_scene(i))));
-    if (second.add(frame, odometry.process(frame))) break;
+    records.push_back(odometry.process(frame).frame);
+    if (second.add(frame, records.back())) break;
   }
   std::string verdict;
-  EXPECT_FALSE(second.finish(verdict));
+  EXPECT_FALSE(second.finish(records, verdict));
   EXPECT_EQ(verdict, "");
 }
 
