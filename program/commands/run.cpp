@@ -58,7 +58,7 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(positive_number());
   command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
   command.add_option("--calib", a.dataset.calibration_file,
-                     "Calibration (camera.txt format) instead of the sequence's");
+                     "Calibration instead of the sequence's: camera.txt, or as another program wrote it");
   CLI::Option* live = command.add_flag("--live", a.live,
                                        "Play the sequence at its own pace, as a camera would give it: frames that come "
                                        "too fast are dropped. A camera is always live");
