@@ -40,6 +40,16 @@ void complete_end(std::vector<double>& times) {
   }
 }
 
+/// Calls a function of OpenCV that says whether it worked; some of its readers throw at damaged files instead.
+template <typename Function>
+bool succeeds(const Function& function) {
+  try {
+    return function();
+  } catch (const cv::Exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 VideoReader::VideoReader(std::filesystem::path path) : path_(std::move(path)) { reopen(); }
@@ -52,7 +62,7 @@ int VideoReader::quarter_turns() const {
 
 VideoTimes VideoReader::scan(std::optional<int> most) {
   VideoTimes found;
-  while (found.frames < most.value_or(std::numeric_limits<int>::max()) && capture_.grab()) {
+  while (found.frames < most.value_or(std::numeric_limits<int>::max()) && grab()) {
     ++found.frames;
     found.seconds.push_back(capture_.get(cv::CAP_PROP_POS_MSEC) / 1000);
   }
@@ -75,8 +85,9 @@ cv::Mat VideoReader::read(int index) {
 
 void VideoReader::reopen() {
   next_ = 0;
-  const bool opened = std::any_of(kFileBackends.begin(), kFileBackends.end(),
-                                  [this](int backend) { return capture_.open(path_.string(), backend); });
+  const bool opened = std::any_of(kFileBackends.begin(), kFileBackends.end(), [this](int backend) {
+    return succeeds([&] { return capture_.open(path_.string(), backend); });
+  });
   if (!opened) {
     throw Error(path_.string(), "the video cannot be opened", "convert it, to H.264 in an .mp4 file for instance");
   }
@@ -98,7 +109,7 @@ bool VideoReader::seek_before(int index) {
   if (times_.empty()) return false;
   const double before = times_[static_cast<std::size_t>(index - 1)];
   // Decoders count frames by the average rate: with times that vary, only the time says which frame it became.
-  if (!capture_.set(cv::CAP_PROP_POS_FRAMES, std::floor(before * fps())) || !capture_.grab()) return false;
+  if (!capture_.set(cv::CAP_PROP_POS_FRAMES, std::floor(before * fps())) || !grab()) return false;
   const double reached = capture_.get(cv::CAP_PROP_POS_MSEC) / 1000;
   const auto found = std::lower_bound(times_.begin(), times_.end(), reached - kSameTime);
   if (found == times_.end() || std::abs(*found - reached) > kSameTime) return false;
@@ -108,12 +119,16 @@ bool VideoReader::seek_before(int index) {
 
 cv::Mat VideoReader::decode_at(int index) {
   for (; next_ < index; ++next_) {
-    if (!capture_.grab()) fail(index);
+    if (!grab()) fail(index);
   }
   cv::Mat frame;
-  if (!capture_.read(frame) || frame.empty()) fail(index);
+  if (!succeeds([&] { return capture_.read(frame); }) || frame.empty()) fail(index);
   ++next_;
   return to_grey(frame);
+}
+
+bool VideoReader::grab() {
+  return succeeds([this] { return capture_.grab(); });
 }
 
 void VideoReader::fail(int index) const {

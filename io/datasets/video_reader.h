@@ -47,6 +47,7 @@ class VideoReader {
   void go_back_to(int index);
   bool seek_before(int index);
   cv::Mat decode_at(int index);
+  bool grab();
   [[noreturn]] void fail(int index) const;
 
   std::filesystem::path path_;

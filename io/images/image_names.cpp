@@ -97,6 +97,28 @@ std::optional<std::size_t> end_of_number_mark(std::string_view pattern, std::siz
   return end != std::string_view::npos && pattern[end] == 'd' ? std::optional(end + 1) : std::nullopt;
 }
 
+/// The end of the mark or character at `position`: "%%" is one character, a percent sign.
+std::size_t end_of_mark(std::string_view pattern, std::size_t position) {
+  if (const auto number_end = end_of_number_mark(pattern, position)) return *number_end;
+  return position + (pattern.substr(position, 2) == "%%" ? 2 : 1);
+}
+
+/// Where the first number of `pattern` is; its size if there is none.
+std::size_t first_number_mark(std::string_view pattern) {
+  std::size_t position = 0;
+  while (position < pattern.size() && !end_of_number_mark(pattern, position)) {
+    position = end_of_mark(pattern, position);
+  }
+  return position;
+}
+
+/// A part of a name as a pattern that means itself.
+std::string escape_percents(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '%' ? "%%" : std::string(1, c);
+  return escaped;
+}
+
 /// Whether `pattern` matches the whole of `name`: `matches[i]` says whether what was seen of the pattern matches the
 /// first i characters of the name, so that no pattern takes more than its length times that of the name.
 bool matches_whole(std::string_view name, std::string_view pattern) {
@@ -116,7 +138,7 @@ bool matches_whole(std::string_view name, std::string_view pattern) {
       }
     }
     matches = std::move(next);
-    position = number_end.value_or(position + 1);
+    position = end_of_mark(pattern, position);
   }
   return matches[name.size()];
 }
@@ -126,13 +148,13 @@ std::string pattern_of(std::string_view name) {
   const std::string_view folder = folder_of(name);
   const std::string_view file = name.substr(folder.size());
   const std::size_t extension = std::min(file.find_last_of('.'), file.size());
-  std::string pattern(folder);
+  std::string pattern = escape_percents(folder);
   for (std::size_t i = 0; i < extension;) {
     const std::size_t end = std::min(file.find_first_not_of(kDigits, i), extension);
-    pattern += end > i ? "%d" : file.substr(i, 1);
+    pattern += end > i ? "%d" : escape_percents(file.substr(i, 1));
     i = std::max(end, i + 1);
   }
-  return pattern + to_lower(std::string(file.substr(extension)));
+  return pattern + escape_percents(to_lower(std::string(file.substr(extension))));
 }
 
 /// One kind for names that cannot be told apart by numbers: none in them, or times some of which are whole seconds.
@@ -140,9 +162,9 @@ std::string family_of(const std::string& name) {
   std::string pattern = pattern_of(name);
   const std::string_view folder = folder_of(name);
   const std::size_t extension = std::min(pattern.find_last_of('.'), pattern.size());
-  if (pattern.find("%d") == std::string::npos) return std::string(folder) + "*" + pattern.substr(extension);
+  if (first_number_mark(pattern) == pattern.size()) return escape_percents(folder) + "*" + pattern.substr(extension);
   if (const auto seconds = parse_seconds(name); seconds && seconds->whole.size() >= kDigitsOfEpoch)
-    return std::string(seconds->before) + "*" + pattern.substr(extension);
+    return escape_percents(seconds->before) + "*" + pattern.substr(extension);
   return pattern;
 }
 
@@ -226,7 +248,7 @@ std::vector<ImageFamily> image_families(const std::vector<std::string>& names) {
     if (streams.empty()) families.push_back({pattern, static_cast<int>(of_pattern.size())});
     for (const auto& [digit, count] : streams) {
       std::string own = pattern;
-      families.push_back({own.replace(own.find("%d"), 2, 1, digit), count});
+      families.push_back({own.replace(first_number_mark(own), 2, 1, digit), count});
     }
   }
   return families;

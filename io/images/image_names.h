@@ -16,8 +16,8 @@ bool natural_less(const std::string& a, const std::string& b);
 /// ("1305031102.1.png" after "1305031102.05.png"), by time.
 void sort_image_names(std::vector<std::string>& names);
 
-/// Whether a name is of a pattern: `%d` (or `%06d`) stands for a number, `*` for any text, `?` for any character.
-/// Capitals count as small letters. The folder of a name only counts if the pattern has one.
+/// Whether a name is of a pattern: `%d` (or `%06d`) stands for a number, `*` for any text, `?` for any character,
+/// `%%` for a percent sign. Capitals count as small letters. The folder of a name only counts if the pattern has one.
 bool matches_pattern(std::string_view name, std::string_view pattern);
 
 /// Images of one kind: their names differ in their numbers only.

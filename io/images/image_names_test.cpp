@@ -44,6 +44,17 @@ TEST(ImageNames, SecondsWithoutTrailingZerosAreInTheOrderOfTime) {
   expect_order({"1305031102.10.png", "1305031102.175.png"});
 }
 
+TEST(ImageFamilies, PercentSignsInNamesAreNoMarks) {
+  const Names names{"%dub/a%d1.png",   "%dub/a%d2.png",   "%20x/cam0_1.png",
+                    "%20x/cam0_2.png", "%20x/cam1_1.png", "%20x/cam1_2.png"};
+  EXPECT_EQ(patterns_of(names), Names({"%%20x/cam0_%d.png 2", "%%20x/cam1_%d.png 2", "%%dub/a%%d%d.png 2"}));
+  for (const ImageFamily& family : image_families(names)) {
+    EXPECT_EQ(std::count_if(names.begin(), names.end(),
+                            [&](const std::string& name) { return matches_pattern(name, family.pattern); }),
+              family.count);
+  }
+}
+
 TEST(ImageNames, NumbersOfPartsAreNoSeconds) {
   expect_order({"1.1.png", "1.2.png", "1.9.png", "1.10.png", "1.11.png"});
   expect_order({"img9.png", "img10.png"});
