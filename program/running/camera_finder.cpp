@@ -14,9 +14,12 @@ namespace {
 
 /// Of the longer side of the image, from a field of view of 115 to 35 degrees, the most usual first.
 constexpr std::array<double, 7> kFocalShares{0.88, 0.69, 1.13, 0.54, 1.5, 0.42, 0.32};
-/// Shorter ones are tried with this first coefficient as well: nearly straight lines are rare in wide lenses.
+/// Shorter ones are tried with barrel distortion as well: nearly straight lines are rare in wide lenses. The
+/// coefficient is such that it moves the corners by a share of their distance from the middle; a lens that folds the
+/// corners over would leave a part of the image alone, which is explained better than the whole.
 constexpr double kDistortedShare = 1.0;
-constexpr double kBarrel = -0.2;
+constexpr double kMostBarrel = -0.2;
+constexpr double kBarrelInCorner = -0.25;
 /// Around what the metadata say: videos show a part of what photos do.
 constexpr std::array<double, 3> kMetadataFactors{1, 1.2, 0.85};
 /// A wide-angle lens (FOV model).
@@ -43,6 +46,12 @@ Calibration with_distortion(Calibration camera, CameraModelKind model, double co
   camera.camera.distortion = {coefficient};
   if (camera.rectification.mode == RectificationMode::kNone) camera.rectification.mode = RectificationMode::kCrop;
   return camera;
+}
+
+double barrel(const Calibration& calibration) {
+  const CameraCalibration& camera = calibration.camera;
+  const double corner = std::hypot(camera.cx, camera.cy) / camera.fx;
+  return std::max(kMostBarrel, kBarrelInCorner / (corner * corner));
 }
 
 /// The nearest one of the same family that the windows of `trial` point to and that points back; nothing if none does.
@@ -147,7 +156,8 @@ std::vector<Calibration> possible_cameras(const Calibration& guess) {
   for (const double share : kFocalShares) {
     const Calibration straight = with_focal_length(guess, share * longer);
     cameras.push_back(straight);
-    if (share < kDistortedShare) cameras.push_back(with_distortion(straight, CameraModelKind::kRadTan, kBarrel));
+    if (share < kDistortedShare)
+      cameras.push_back(with_distortion(straight, CameraModelKind::kRadTan, barrel(straight)));
   }
   cameras.push_back(
       with_distortion(with_focal_length(guess, kWideFocalShare * longer), CameraModelKind::kFov, kWideOmega));
