@@ -37,6 +37,7 @@ ROOMS = {
     "mapping/graph": ["mapping/map"],
     "mapping": ["mapping/verification", "mapping/graph"],
     "slam": ["odometry", "mapping"],
+    "sequence": ["slam"],
     # io
     "io/text": ["util"],
     "io/settings": ["io/text", "settings"],
@@ -57,7 +58,7 @@ ROOMS = {
     "experiment": ["experiment/summary", "experiment/plan"],
     # program
     "camera": ["io/datasets"],
-    "running": ["slam", "camera"],
+    "running": ["sequence", "camera"],
     "viewer/map": ["io/datasets"],
     "viewer/recording": ["viewer/map"],
     "viewer/server": ["viewer/map"],

@@ -1,4 +1,4 @@
-#include "io/images/prefetching_reader.h"
+#include "util/prefetching_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,22 +1,21 @@
 #pragma once
 
-// The drawn scene as a dataset; some frames may be bad.
+// The drawn scene as a sequence; some frames may be bad.
 
 #include <algorithm>
 #include <new>
 #include <string>
-#include <vector>
 
 #include "ldso/error.h"
-#include "ldso/io/dataset.h"
+#include "ldso/frame_source.h"
 #include "slam/test_scene.h"
 
 namespace ldso {
 
-class SceneDataset final : public Dataset {
+class SceneSource final : public FrameSource {
  public:
   /// `step`: time between two frames [s].
-  explicit SceneDataset(int size, double step = 0.1) : size_(size), step_(step), calibration_(scene_calibration()) {}
+  explicit SceneSource(int size, double step = 0.1) : size_(size), step_(step), calibration_(scene_calibration()) {}
 
   int unreadable = -1;
   int wrong_size = -1;
@@ -25,9 +24,6 @@ class SceneDataset final : public Dataset {
   int size() const override { return size_; }
   double timestamp(int index) const override { return step_ * index; }
   const Calibration& calibration() const override { return calibration_; }
-  std::optional<Trajectory> ground_truth() const override { return std::nullopt; }
-  std::string format_name() const override { return "drawn"; }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
 
   RawFrame read(int index) const override {
     if (index == unreadable) throw Error("image " + std::to_string(index), "cannot be decoded", "replace it");
@@ -47,7 +43,6 @@ class SceneDataset final : public Dataset {
   int size_;
   double step_;
   Calibration calibration_;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace ldso

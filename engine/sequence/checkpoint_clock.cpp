@@ -1,4 +1,4 @@
-#include "running/checkpoint_clock.h"
+#include "sequence/checkpoint_clock.h"
 
 #include <utility>
 

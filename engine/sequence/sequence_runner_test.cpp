@@ -1,4 +1,4 @@
-#include "running/sequence_runner.h"
+#include "ldso/sequence_run.h"
 
 #include <gtest/gtest.h>
 
@@ -9,24 +9,24 @@
 #include <vector>
 
 #include "ldso/error.h"
-#include "running/test_scene_dataset.h"
+#include "sequence/test_scene_source.h"
 
 namespace ldso {
 namespace {
 
-SequenceRun run(const SceneDataset& dataset, const RunOptions& options = {}, const LogSink& log = {},
+SequenceRun run(const SceneSource& source, const RunOptions& options = {}, const LogSink& log = {},
                 const Settings& settings = {}) {
-  return run_sequence(dataset, settings, log, options);
+  return run_sequence(source, settings, log, options);
 }
 
 TEST(SequenceRunner, GivesWhatSlamGives) {
-  const SceneDataset dataset(30);
-  const SequenceRun offline = run(dataset);
+  const SceneSource source(30);
+  const SequenceRun offline = run(source);
   EXPECT_FALSE(offline.stopped);
   EXPECT_EQ(offline.error, "");
   EXPECT_GT(offline.seconds, 0);
 
-  Slam slam(dataset.calibration(), Settings{});
+  Slam slam(source.calibration(), Settings{});
   for (int i = 0; i < 30; ++i) {
     const Image<std::uint8_t> image = draw_scene(i);
     slam.process(image.view(), 0.1 * i);
@@ -41,17 +41,17 @@ TEST(SequenceRunner, GivesWhatSlamGives) {
 }
 
 TEST(SequenceRunner, CheckpointsAreTheRunSoFarAndChangeNothing) {
-  const SceneDataset dataset(30);
+  const SceneSource source(30);
   std::vector<SequenceRun> checkpoints;
   RunOptions options;
   options.checkpoint = [&](SequenceRun so_far) { checkpoints.push_back(std::move(so_far)); };
   options.checkpoint_interval_s = 0;
-  const auto poses = run(dataset, options).result.trajectory(), expected = run(dataset).result.trajectory();
+  const auto poses = run(source, options).result.trajectory(), expected = run(source).result.trajectory();
   ASSERT_EQ(checkpoints.size(), 30u);
   for (std::size_t i = 0; i < checkpoints.size(); ++i) {
     EXPECT_EQ(checkpoints[i].result.frames.size(), i + 1);
     EXPECT_TRUE(checkpoints[i].stopped);
-    EXPECT_EQ(checkpoints[i].calibration.camera.fx, dataset.calibration().camera.fx);
+    EXPECT_EQ(checkpoints[i].calibration.camera.fx, source.calibration().camera.fx);
   }
   EXPECT_EQ(checkpoints.back().result.trajectory().size(), expected.size());
   ASSERT_EQ(poses.size(), expected.size());
@@ -61,27 +61,27 @@ TEST(SequenceRunner, CheckpointsAreTheRunSoFarAndChangeNothing) {
 }
 
 TEST(SequenceRunner, WantOfMemoryEndsTheRunAndSkipsNothing) {
-  SceneDataset dataset(30);
-  dataset.without_memory = 20;
-  const SequenceRun done = run(dataset);
+  SceneSource source(30);
+  source.without_memory = 20;
+  const SequenceRun done = run(source);
   EXPECT_EQ(done.error.find("out of memory while reading frame 20; "), 0u) << done.error;
   EXPECT_EQ(done.result.skipped, 0);
   EXPECT_EQ(done.result.frames.size(), 20u);
 }
 
 TEST(SequenceRunner, BadFramesAreSkippedWithTheirReason) {
-  SceneDataset dataset(30);
-  dataset.unreadable = 18;
-  dataset.wrong_size = 22;
+  SceneSource source(30);
+  source.unreadable = 18;
+  source.wrong_size = 22;
   std::vector<std::string> warnings;
-  const SequenceRun done = run(dataset, {}, [&](LogLevel level, const std::string& message) {
+  const SequenceRun done = run(source, {}, [&](LogLevel level, const std::string& message) {
     if (level == LogLevel::kWarning) warnings.push_back(message);
   });
   const SlamResult& result = done.result;
   EXPECT_EQ(result.skipped, 2);
   ASSERT_EQ(result.frames.size(), 30u);
   EXPECT_EQ(result.frames[18].reason, "skipped: image 18: cannot be decoded; replace it");
-  EXPECT_EQ(result.frames[18].timestamp, dataset.timestamp(18));
+  EXPECT_EQ(result.frames[18].timestamp, source.timestamp(18));
   EXPECT_NE(result.frames[22].reason.find("64 x 48"), std::string::npos) << result.frames[22].reason;
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0].find("frame 18 is skipped: "), 0u) << warnings[0];
@@ -92,7 +92,7 @@ TEST(SequenceRunner, BadFramesAreSkippedWithTheirReason) {
 }
 
 TEST(SequenceRunner, ReportsProgressAndStopsWhenAsked) {
-  const SceneDataset dataset(30);
+  const SceneSource source(30);
   std::atomic<bool> stop{false};
   std::vector<int> done;
   RunOptions options;
@@ -103,7 +103,7 @@ TEST(SequenceRunner, ReportsProgressAndStopsWhenAsked) {
     done.push_back(progress.done);
     if (progress.done == 20) stop = true;
   };
-  const SequenceRun stopped = run(dataset, options);
+  const SequenceRun stopped = run(source, options);
   EXPECT_TRUE(stopped.stopped);
   ASSERT_EQ(done.size(), 20u);
   EXPECT_EQ(done.front(), 1);
@@ -114,7 +114,7 @@ TEST(SequenceRunner, ReportsProgressAndStopsWhenAsked) {
 }
 
 TEST(SequenceRunner, ACalibrationThatDoesNotProveItselfIsRefused) {
-  const SceneDataset dataset(120);
+  const SceneSource source(120);
   Settings settings;
   settings.self_calibration.passes = 2;
   settings.self_calibration.significance = 0;  // Anything will do to try, but nothing is wrong.
@@ -128,7 +128,7 @@ TEST(SequenceRunner, ACalibrationThatDoesNotProveItselfIsRefused) {
                          [&](const std::string& m) { return m.find(text) != m.npos; });
   };
   const SequenceRun done = run(
-      dataset, options, [&](LogLevel, const std::string& message) { messages.push_back(message); }, settings);
+      source, options, [&](LogLevel, const std::string& message) { messages.push_back(message); }, settings);
   EXPECT_EQ(done.passes, 3);
   EXPECT_EQ(begun, 3);
   EXPECT_EQ(count("contradict the calibration"), 1);
@@ -136,24 +136,24 @@ TEST(SequenceRunner, ACalibrationThatDoesNotProveItselfIsRefused) {
   EXPECT_FALSE(done.is_corrected);
   EXPECT_NE(done.refused_correction, "");
   EXPECT_EQ(done.result.frames.size(), 120u);
-  EXPECT_EQ(done.calibration.camera.fx, dataset.calibration().camera.fx);
+  EXPECT_EQ(done.calibration.camera.fx, source.calibration().camera.fx);
   EXPECT_EQ(done.calibration.camera.model, CameraModelKind::kPinhole);
   EXPECT_EQ(done.error, "");
 
   settings.self_calibration.enabled = false;
-  const SequenceRun once = run(dataset, {}, {}, settings);
+  const SequenceRun once = run(source, {}, {}, settings);
   EXPECT_EQ(once.passes, 1);
-  EXPECT_EQ(once.calibration.camera.fx, dataset.calibration().camera.fx);
+  EXPECT_EQ(once.calibration.camera.fx, source.calibration().camera.fx);
   EXPECT_EQ(once.calibration.camera.model, CameraModelKind::kPinhole);
 }
 
 TEST(SequenceRunner, AnErrorOnTheWaySavesWhatWasDone) {
-  const SceneDataset dataset(30);
+  const SceneSource source(30);
   RunOptions options;
   options.progress = [](const RunProgress& progress) {
     if (progress.done == 25) throw Error("frame 24", "something broke", "");
   };
-  const SequenceRun broken = run(dataset, options);
+  const SequenceRun broken = run(source, options);
   EXPECT_EQ(broken.error, "frame 24: something broke");
   EXPECT_FALSE(broken.stopped);
   EXPECT_EQ(broken.result.frames.size(), 25u);
@@ -161,8 +161,8 @@ TEST(SequenceRunner, AnErrorOnTheWaySavesWhatWasDone) {
 }
 
 TEST(SequenceRunner, TimesItsStages) {
-  const SceneDataset dataset(10);
-  const auto times = run(dataset).result.stage_times;
+  const SceneSource source(10);
+  const auto times = run(source).result.stage_times;
   for (const char* stage : {"decode", "preprocess", "odometry"}) {
     ASSERT_TRUE(times.contains(stage)) << stage;
     EXPECT_EQ(times.at(stage).calls, 10) << stage;

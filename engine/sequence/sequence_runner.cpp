@@ -1,17 +1,16 @@
-#include "running/sequence_runner.h"
-
 #include <chrono>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "io/images/prefetching_reader.h"
-#include "running/checkpoint_clock.h"
-#include "running/ready_frame.h"
+#include "ldso/sequence_run.h"
+#include "sequence/checkpoint_clock.h"
+#include "sequence/ready_frame.h"
 #include "slam/calibration_search.h"
 #include "util/log.h"
 #include "util/out_of_memory.h"
+#include "util/prefetching_reader.h"
 
 namespace ldso {
 namespace {
@@ -20,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 
 using Reader = PrefetchingReader<ReadyFrame>;
 
-const FrameRecord& process(const Dataset& dataset, Pipeline& pipeline, const Reader::Item& item) {
-  if (!item.value) return pipeline.skip(item.index, dataset.timestamp(item.index), item.error);
+const FrameRecord& process(const FrameSource& source, Pipeline& pipeline, const Reader::Item& item) {
+  if (!item.value) return pipeline.skip(item.index, source.timestamp(item.index), item.error);
   return feed(pipeline, *item.value);
 }
 
@@ -41,9 +40,9 @@ void note_search(const CalibrationSearch& search, SequenceRun& run) {
 class Pass {
  public:
   /// `run`: all but the result, with the calibration of this pass. It must outlive this.
-  Pass(const Dataset& dataset, SequenceRun& run, const Settings& settings, const LogSink& log,
+  Pass(const FrameSource& source, SequenceRun& run, const Settings& settings, const LogSink& log,
        const RunOptions& options)
-      : dataset_(dataset), run_(run), log_(log), pipeline_(run.calibration, settings, log, options.observer) {}
+      : source_(source), run_(run), log_(log), pipeline_(run.calibration, settings, log, options.observer) {}
 
   /// `search` hears of the first frames and says whether to go on. It must outlive this.
   void watch_for(CalibrationSearch& search, const SelfCalibrationSettings& settings) {
@@ -54,9 +53,9 @@ class Pass {
 
   PassEnd run(const RunOptions& options, CheckpointClock& checkpoints) {
     const FramePreprocessor& preprocessor = pipeline_.preprocessor();
-    Reader reader(dataset_.size(),
-                  [&](int index) { return make_ready([&] { return dataset_.read(index); }, preprocessor); });
-    for (done_ = 0; done_ < dataset_.size(); ++done_) {
+    Reader reader(source_.size(),
+                  [&](int index) { return make_ready([&] { return source_.read(index); }, preprocessor); });
+    for (done_ = 0; done_ < source_.size(); ++done_) {
       if (must_stop(options)) return PassEnd::kStopped;
       std::optional<Reader::Item> item;
       {
@@ -64,8 +63,8 @@ class Pass {
         item = reader.next();
       }
       if (!item) break;
-      const FrameRecord& frame = process(dataset_, pipeline_, *item);
-      if (options.progress) options.progress({done_ + 1, dataset_.size(), pipeline_.keyframes(), frame, 0});
+      const FrameRecord& frame = process(source_, pipeline_, *item);
+      if (options.progress) options.progress({done_ + 1, source_.size(), pipeline_.keyframes(), frame, 0});
       checkpoints.after_frame(pipeline_, run_);
       if (is_decided(frame) && begins_anew()) return PassEnd::kBeginsAnew;
     }
@@ -89,11 +88,11 @@ class Pass {
     watch_.reset();
     pipeline_.postpone_revision(false);
     note_search(*search_, run_);
-    if (search_->is_corrected()) log_to(log_, LogLevel::kInfo, "the better calibration stands: " + search_->proof());
+    if (search_->is_corrected()) log_to(log_, LogLevel::kWarning, "the better calibration stands: " + search_->proof());
     return anew;
   }
 
-  const Dataset& dataset_;
+  const FrameSource& source_;
   SequenceRun& run_;
   const LogSink& log_;
   Pipeline pipeline_;
@@ -104,11 +103,12 @@ class Pass {
 
 void log_next(const CalibrationSearch& search, const Calibration& given, const LogSink& log) {
   if (search.is_open()) {
-    log_to(log, LogLevel::kInfo,
+    log_to(log, LogLevel::kWarning,
            "the images contradict the calibration: " + describe_change(given.camera, search.calibration().camera) +
                "; starting again to see whether that is better");
   } else {
-    log_to(log, LogLevel::kInfo, "the calibration stands. Refused: " + search.refusal() + "; starting again with it");
+    log_to(log, LogLevel::kWarning,
+           "the calibration stands. Refused: " + search.refusal() + "; starting again with it");
   }
 }
 
@@ -124,19 +124,19 @@ PassEnd run_pass(Pass& pass, const RunOptions& options, CheckpointClock& checkpo
 
 }  // namespace
 
-SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const LogSink& log,
+SequenceRun run_sequence(const FrameSource& source, const Settings& settings, const LogSink& log,
                          const RunOptions& options) {
   SequenceRun run;
   const Clock::time_point start = Clock::now();
   CheckpointClock checkpoints(options);
-  CalibrationSearch search(dataset.calibration(), settings.self_calibration);
+  CalibrationSearch search(source.calibration(), settings.self_calibration);
   for (run.passes = 1;; ++run.passes) {
     run.calibration = search.calibration();
-    Pass pass(dataset, run, settings, log, options);
+    Pass pass(source, run, settings, log, options);
     if (search.is_open()) pass.watch_for(search, settings.self_calibration);
     const PassEnd end = run_pass(pass, options, checkpoints, run);
     if (end == PassEnd::kBeginsAnew) {
-      log_next(search, dataset.calibration(), log);
+      log_next(search, source.calibration(), log);
       continue;
     }
     note_search(search, run);

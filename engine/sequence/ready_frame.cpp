@@ -1,4 +1,4 @@
-#include "running/ready_frame.h"
+#include "sequence/ready_frame.h"
 
 #include <chrono>
 

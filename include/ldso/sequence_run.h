@@ -1,7 +1,7 @@
 #pragma once
 
-// A whole sequence through the pipeline, offline: every frame, in order, decoded and preprocessed ahead on a thread
-// of its own; begun anew where its calibration turns out to be wrong.
+// A whole sequence, offline: every frame, in order, read and preprocessed ahead on a thread of its own; begun anew
+// where its calibration turns out to be wrong. This is what `ldso run` does.
 
 #include <atomic>
 #include <functional>
@@ -9,8 +9,13 @@
 #include <optional>
 #include <string>
 
-#include "ldso/io/dataset.h"
-#include "slam/pipeline.h"
+#include "ldso/calibration.h"
+#include "ldso/frame_source.h"
+#include "ldso/log.h"
+#include "ldso/observer.h"
+#include "ldso/records.h"
+#include "ldso/settings.h"
+#include "ldso/slam.h"
 
 namespace ldso {
 
@@ -43,7 +48,7 @@ struct LiveFigures {
 
 struct SequenceRun {
   SlamResult result;
-  Calibration calibration;         ///< What the frames were read with in the end: the dataset's or a better one.
+  Calibration calibration;         ///< What the frames were read with in the end: the source's or a better one.
   int passes = 1;                  ///< How often the sequence was begun: once more for each calibration that was tried.
   bool is_corrected = false;       ///< `calibration` is a better one that has proven itself.
   std::string proof;               ///< What speaks for it; empty if nothing was corrected.
@@ -52,15 +57,12 @@ struct SequenceRun {
   std::string error;               ///< Why it ended early otherwise; what was done until then is in `result`.
   double seconds = 0;              ///< Wall time of all frames.
   std::optional<LiveFigures> live = std::nullopt;  ///< Of a live run.
-  /// What a live run found to be better, but could not begin anew with.
-  std::optional<Calibration> better_calibration = std::nullopt;
 };
 
 /// A frame that cannot be read or has a wrong size is skipped with its reason; the run goes on. If the first frames
 /// contradict the calibration, the run begins anew with a better one, and once more with the one that was given if that
-/// does not prove itself. Throws Error if the calibration or a setting
-/// makes no sense.
-SequenceRun run_sequence(const Dataset& dataset, const Settings& settings, const LogSink& log = {},
+/// does not prove itself. Throws Error if the calibration or a setting makes no sense.
+SequenceRun run_sequence(const FrameSource& source, const Settings& settings, const LogSink& log = {},
                          const RunOptions& options = {});
 
 }  // namespace ldso

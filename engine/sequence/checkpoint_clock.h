@@ -4,7 +4,8 @@
 
 #include <chrono>
 
-#include "running/sequence_runner.h"
+#include "ldso/sequence_run.h"
+#include "slam/pipeline.h"
 
 namespace ldso {
 
