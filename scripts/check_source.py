@@ -11,7 +11,8 @@ import source_measures
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # The parts of the project, and the folder that the includes of their files are relative to.
-PARTS = {"engine": "engine", "io": "", "tools": "tools", "program": "program"}
+PARTS = {"engine": "engine", "io": "", "tools": "tools", "program": "program",
+         "python": "python"}
 
 # What the files of a room may include beside their own room and include/ldso: the rooms named here and, with each of
 # them, its folders and all that it may include itself. A folder inside a room counts as a room of its own where it is
@@ -70,6 +71,8 @@ ROOMS = {
     "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
     "commands": ["commands/experiment"],
     "": ["commands"],  # program/main.cpp
+    # python
+    "bindings": ["output", "simulation/sequences"],
 }
 
 # Libraries that stay inside rooms.
@@ -80,6 +83,7 @@ LIBRARIES = {
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
     r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},
+    r"pybind11/": {"bindings"},
     r"ceres/": {"mapping"},
     r"hwy/": {"image", "odometry", "simulation"},
 }
