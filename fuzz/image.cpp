@@ -1,9 +1,9 @@
 // Images: frames and vignettes. What is large by its own header is left out, since unpacking it takes too long here.
 
 #include "fuzz_target.h"
+#include "io/images/exif.h"
 #include "io/images/image_file.h"
 #include "io/images/image_header.h"
-#include "io/images/image_orientation.h"
 
 using namespace ldso;
 
@@ -23,6 +23,7 @@ LDSO_FUZZ_TARGET(image) {
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
   const int orientation = exif_orientation(bytes);
   fuzz::expect(orientation >= 1 && orientation <= 8, "an orientation is one of eight");
+  fuzz::expect(exif_focal_35mm(bytes).value_or(1) > 0, "a focal length is positive");
   const auto header = fuzz::accepted([&] { return read_image_header(bytes, "image"); });
   if (header && std::int64_t{header->width} * header->height > kMostPixelsHere) return;
   const auto image = fuzz::accepted([&] { return decode_grey_image(bytes, "image"); });

@@ -1,19 +1,28 @@
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "ldso/error.h"
 #include "ldso/sequence_run.h"
+#include "sequence/camera_finder.h"
 #include "sequence/checkpoint_clock.h"
 #include "sequence/ready_frame.h"
 #include "slam/calibration_search.h"
+#include "util/format_text.h"
 #include "util/log.h"
 #include "util/out_of_memory.h"
 #include "util/prefetching_reader.h"
 
 namespace ldso {
 namespace {
+
+/// Standard deviations by which the images must contradict a camera that was found.
+constexpr double kFoundSignificance = 3;
+/// Standard deviation of the focal length, as a share of it, from which on it is unknown.
+constexpr double kLeastKnownFocal = 0.01;
 
 using Clock = std::chrono::steady_clock;
 
@@ -101,15 +110,53 @@ class Pass {
   std::optional<CalibrationWatch> watch_;
 };
 
-void log_next(const CalibrationSearch& search, const Calibration& given, const LogSink& log) {
+void log_next(const CalibrationSearch& search, const LogSink& log) {
   if (search.is_open()) {
     log_to(log, LogLevel::kWarning,
-           "the images contradict the calibration: " + describe_change(given.camera, search.calibration().camera) +
+           (search.given().is_guess() ? "the images speak for " : "the images contradict the calibration: ") +
+               describe_change(search.given().camera, search.calibration().camera) +
+               format_text(" (%.0f standard deviations)", search.deviations()) +
                "; starting again to see whether that is better");
   } else {
     log_to(log, LogLevel::kWarning,
            "the calibration stands. Refused: " + search.refusal() + "; starting again with it");
   }
+}
+
+/// What the search begins with.
+CameraFinding first_calibration(const FrameSource& source, const Settings& settings, const LogSink& log,
+                                const RunOptions& options) {
+  if (!source.calibration().is_guess()) return {source.calibration(), {}};
+  if (!settings.self_calibration.enabled) {
+    throw Error("calibration", "there is none of the camera",
+                "give one with --calib, or let self_calibration.enabled=true look for it");
+  }
+  log_to(log, LogLevel::kInfo, "there is no calibration of the camera: looking for it");
+  return find_camera(source, settings, log, options.stop);
+}
+
+/// What was only found is left sooner for something better than what somebody has measured.
+SelfCalibrationSettings search_settings(const Calibration& given, SelfCalibrationSettings settings) {
+  if (given.is_guess()) settings.significance = std::min(settings.significance, kFoundSignificance);
+  return settings;
+}
+
+FoundCamera found_camera(const CalibrationSearch& search, const std::string& doubt, const LogSink& log) {
+  FoundCamera found;
+  std::copy_n(search.stddevs().data(), found.stddevs.size(), found.stddevs.begin());
+  const CameraCalibration& camera = search.calibration().camera;
+  const double share = found.stddevs[0] / camera.fx;
+  // What the windows of one camera say does not count while another one may be the right one.
+  found.doubt = doubt.empty() ? search.refusal() : doubt;
+  if (found.doubt.empty() && !(share > 0 && share < kLeastKnownFocal))
+    found.doubt = format_text("the motion tells the focal length only to %.1f %%", 100 * share);
+  if (!found.doubt.empty()) {
+    log_to(log, LogLevel::kWarning,
+           "nobody calibrated the camera, and this sequence does not tell how it sees: " + found.doubt +
+               ". The shape of trajectory and map may be wrong. Film something at several distances, moving sideways "
+               "and turning, or give a calibration with --calib");
+  }
+  return found;
 }
 
 /// A failure ends the pass where it is.
@@ -129,17 +176,19 @@ SequenceRun run_sequence(const FrameSource& source, const Settings& settings, co
   SequenceRun run;
   const Clock::time_point start = Clock::now();
   CheckpointClock checkpoints(options);
-  CalibrationSearch search(source.calibration(), settings.self_calibration);
+  const CameraFinding first = first_calibration(source, settings, log, options);
+  CalibrationSearch search(first.calibration, search_settings(source.calibration(), settings.self_calibration));
   for (run.passes = 1;; ++run.passes) {
     run.calibration = search.calibration();
     Pass pass(source, run, settings, log, options);
     if (search.is_open()) pass.watch_for(search, settings.self_calibration);
     const PassEnd end = run_pass(pass, options, checkpoints, run);
     if (end == PassEnd::kBeginsAnew) {
-      log_next(search, source.calibration(), log);
+      log_next(search, log);
       continue;
     }
     note_search(search, run);
+    if (source.calibration().is_guess()) run.found_camera = found_camera(search, first.doubt, log);
     run.stopped = end == PassEnd::kStopped;
     run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.result = pass.finish();

@@ -1,5 +1,6 @@
 #include "slam/calibration_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,20 @@ namespace {
 constexpr double kTriedSignificance = 3;
 /// Deviations of so many times what is needed are clear before all frames have been seen.
 constexpr double kClear = 2;
+/// Runs with calibrations that are equally good have residuals that differ by this share, or by so many of the standard
+/// deviations that show in it.
+constexpr double kNoWorse = 0.01;
+constexpr double kWorseSignificance = 2;
+/// Nobody vouches for a guess: it is left for what the windows say unless residuals become larger by this share.
+constexpr double kGuessNoWorse = 0.05;
+/// In the end so many deviations are left at most.
+constexpr double kGuessDeviations = 6;
+/// What was contradicted by so many times what is needed, and is not contradicted any more with the better calibration,
+/// needs less proof from the residuals: an improvement of the middle stretch. If it was by still more, it is enough
+/// that they are no worse: windows move their own focal lengths, and have the same residuals then.
+constexpr double kPlain = 2;
+constexpr double kVeryPlain = 3;
+constexpr double kSameResidual = 0.003;
 /// So many windows of the first pass are enough to compare those of a later one with.
 constexpr std::size_t kLeastFits = 24;
 /// From the third on, a change of the calibration by more than this factor times the one before is a flight. Each may
@@ -43,16 +58,21 @@ bool CalibrationSearch::is_clear(const CalibrationFindings& findings) const {
 
 bool CalibrationSearch::begins_anew(const CalibrationFindings& findings) {
   ++passes_;
+  stddevs_ = findings.stddevs;
+  deviations_ = findings.deviations;
   const bool contradicts = findings.deviations > contradiction();
   if (state_ == State::kTrying) return contradicts && passes_ < settings_.passes ? try_next(findings) : prove(findings);
   state_ = contradicts ? State::kTrying : State::kKept;
   if (!contradicts) return false;
   fits_ = findings.fits;
+  first_deviations_ = findings.deviations;
   return try_next(findings);
 }
 
 std::string CalibrationSearch::objection(const CalibrationFindings& findings, int pass) const {
-  if (const FitChange change = compare_fits(fits_, findings.fits); change.is_known && change.residual > 0) {
+  const FitChange change = compare_fits(fits_, findings.fits);
+  const double most = given_.is_guess() ? kGuessNoWorse : std::max(kNoWorse, kWorseSignificance * change.stddev);
+  if (change.is_known && change.residual > most) {
     return format_text("residuals have become larger by %.2f %%", 100 * change.residual);
   }
   const double step = step_between(calibration_.camera, findings.better.camera);
@@ -75,12 +95,23 @@ bool CalibrationSearch::prove(const CalibrationFindings& findings) {
   const FitChange change = compare_fits(fits_, findings.fits);
   if (!change.is_known) return refuse("too few windows saw the same frames with both");
   const std::string figures =
+      format_text("it was contradicted by %.0f standard deviations, the better one is by %.0f; ", first_deviations_,
+                  findings.deviations) +
       format_text("residuals changed by %.2f +- %.2f %%, by %.2f %% where least, inliers by %.1f %%",
                   100 * change.residual, 100 * change.stddev, 100 * change.worst, 100 * change.inlier_share);
-  if (!is_better(change)) return refuse(figures + ", which proves nothing");
+  const bool is_lenient = given_.is_guess() && findings.deviations < kGuessDeviations && change.median < kGuessNoWorse;
+  if (!is_lenient && !is_better(change) && !is_plain(change, findings))
+    return refuse(figures + ", which proves nothing");
   state_ = State::kProven;
   proof_ = figures;
   return false;
+}
+
+bool CalibrationSearch::is_plain(const FitChange& change, const CalibrationFindings& findings) const {
+  if (findings.deviations > contradiction()) return false;
+  const double deviations = first_deviations_ / settings_.significance;
+  return (deviations > kPlain && change.median < -kSameResidual) ||
+         (deviations > kVeryPlain && change.median < kSameResidual);
 }
 
 bool CalibrationSearch::refuse(const std::string& why) {

@@ -16,6 +16,8 @@ class CalibrationSearch {
  public:
   CalibrationSearch(Calibration given, const SelfCalibrationSettings& settings);
 
+  /// What it began with.
+  const Calibration& given() const { return given_; }
   /// What the next pass is to be run with.
   const Calibration& calibration() const { return calibration_; }
   /// Whether that pass is to be watched.
@@ -26,9 +28,13 @@ class CalibrationSearch {
   /// To be called once, after the watched frames of a pass with calibration(). True if it is to begin anew.
   bool begins_anew(const CalibrationFindings& findings);
 
+  /// By how many of its standard deviations the newest pass contradicted its calibration.
+  double deviations() const { return deviations_; }
   /// Passes that were watched.
   int passes() const { return passes_; }
   bool is_corrected() const { return state_ == State::kProven; }
+  /// How well the windows of the last pass knew the lens.
+  const LensVector& stddevs() const { return stddevs_; }
   /// What spoke for the correction, if it was accepted.
   const std::string& proof() const { return proof_; }
   /// Why a contradiction was not followed; empty if there was none or the correction was accepted.
@@ -43,14 +49,19 @@ class CalibrationSearch {
   std::string objection(const CalibrationFindings& findings, int pass) const;
   bool try_next(const CalibrationFindings& findings);
   bool prove(const CalibrationFindings& findings);
+  /// Whether the windows of the first and the last pass speak so plainly that the residuals need to say little.
+  bool is_plain(const FitChange& change, const CalibrationFindings& findings) const;
   bool refuse(const std::string& why);
 
   Calibration given_, calibration_;
   SelfCalibrationSettings settings_;
   State state_ = State::kGiven;
   std::vector<WindowFit> fits_;  ///< With the given calibration.
+  double first_deviations_ = 0;  ///< That contradict it.
+  double deviations_ = 0;        ///< The same of the newest pass.
   double step_ = 0;              ///< The last change of the calibration [px].
   int passes_ = 0;
+  LensVector stddevs_ = LensVector::Zero();
   std::string refusal_, proof_;
 };
 

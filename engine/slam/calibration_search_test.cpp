@@ -44,12 +44,39 @@ TEST(CalibrationSearch, ABetterOneIsAcceptedOnceItStaysAndExplainsTheSameFramesB
 TEST(CalibrationSearch, WhatDoesNotExplainTheFramesBetterIsRefused) {
   for (const double log_rmse : {1.0, 1.02, 0.999}) {
     CalibrationSearch search(scene_calibration(), {});
-    ASSERT_TRUE(search.begins_anew(findings(20, 1.04, 1)));
+    ASSERT_TRUE(search.begins_anew(findings(11, 1.04, 1)));
     ASSERT_TRUE(search.begins_anew(findings(1, 1.04, log_rmse))) << "the run has to begin with what was given";
     EXPECT_FALSE(search.is_open());
     EXPECT_FALSE(search.is_corrected());
     EXPECT_EQ(search.calibration().camera.fx, scene_calibration().camera.fx);
     EXPECT_NE(search.refusal().find("proves nothing"), std::string::npos) << search.refusal();
+  }
+}
+
+/// Whether a change is accepted that was asked for by so many deviations, and with which residuals are this.
+bool is_accepted(double deviations, double log_rmse) {
+  CalibrationSearch search(scene_calibration(), {});
+  EXPECT_TRUE(search.begins_anew(findings(deviations, 1.04, 1)));
+  search.begins_anew(findings(1, 1.04, log_rmse));
+  return search.is_corrected();
+}
+
+TEST(CalibrationSearch, APlainContradictionNeedsLessProof) {
+  EXPECT_FALSE(is_accepted(11, 0.9965));
+  EXPECT_TRUE(is_accepted(13, 0.9965));
+  EXPECT_FALSE(is_accepted(13, 1.0));
+  EXPECT_TRUE(is_accepted(20, 1.0)) << "a window makes up for a wrong focal length";
+  EXPECT_FALSE(is_accepted(40, 1.01)) << "it has become worse";
+}
+
+TEST(CalibrationSearch, AGuessIsLeftWithoutProof) {
+  Calibration guess = scene_calibration();
+  guess.source = CameraSource::kNone;
+  for (const double log_rmse : {1.01, 1.2}) {
+    CalibrationSearch search(guess, {});
+    ASSERT_TRUE(search.begins_anew(findings(8, 1.04, 1)));
+    search.begins_anew(findings(1, 1.04, log_rmse));
+    EXPECT_EQ(search.is_corrected(), log_rmse < 1.05) << log_rmse;
   }
 }
 

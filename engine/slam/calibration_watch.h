@@ -16,6 +16,8 @@ struct CalibrationFindings {
   double deviations = 0;        ///< By so many standard deviations they contradict its calibration; 0: not by much.
   Calibration better;           ///< What they speak for instead.
   std::vector<WindowFit> fits;  ///< How well they are explained as it is.
+  LensVector stddevs =
+      LensVector::Zero();  ///< Of the lens that they speak for: fx, fy, cx, cy [px], two coefficients, readout [ms].
 };
 
 class CalibrationWatch {
@@ -29,7 +31,9 @@ class CalibrationWatch {
   /// Frames that are looked at have all come.
   bool is_over() const { return frames_ >= settings_.frames; }
 
-  CalibrationFindings findings() const { return {estimate_.deviations(), estimate_.better(), fits_}; }
+  CalibrationFindings findings() const {
+    return {estimate_.deviations(), estimate_.better(), fits_, estimate_.stddevs()};
+  }
 
  private:
   SelfCalibrationSettings settings_;

@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kMostBehind = 4;
 /// Fewer frames tell nothing.
 constexpr std::size_t kLeastCompared = 20;
+/// A first map that needed more frames to begin is doubtful: the images could be explained in several ways.
+constexpr int kPromptStart = 12;
 
 Settings patient(Settings settings) {
   settings.initializer.good_parallax_angle = settings.revision.second_parallax_angle;
@@ -28,6 +30,8 @@ Settings patient(Settings settings) {
 SecondStart::SecondStart(const Odometry& odometry, const Settings& settings, ThreadPool& pool)
     : settings_(settings.revision),
       map_{odometry.unstarted(patient(settings), pool), {}, {}, -1},
+      pool_(pool),
+      patient_(patient(settings)),
       queue_(kMostBehind),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
@@ -37,27 +41,39 @@ SecondStart::~SecondStart() {
 }
 
 void SecondStart::work(const std::stop_token& stop) {
-  while (const auto frame = queue_.pop()) {
+  while (const auto item = queue_.pop()) {
     if (stop.stop_requested() || !failure_.empty()) continue;
     try {
-      OdometryOutput output = map_.odometry->process(*frame);
-      map_.records.push_back(output.frame);
-      for (const FrameRecord& late : output.late) replace_record(map_.records, late);
-      if (start_ < 0 && output.frame.state == TrackingState::kTracked) start_ = output.frame.frame_id;
-      std::move(output.finished.begin(), output.finished.end(), std::back_inserter(map_.keyframes));
+      process(*item);
     } catch (const std::exception& failure) {
       failure_ = failure.what();
     }
   }
 }
 
+void SecondStart::process(const Item& item) {
+  OdometryOutput output = map_.odometry->process(item.frame);
+  const bool begins = start_ < 0 && output.frame.state == TrackingState::kTracked;
+  if (begins && item.first_begins && item.is_doubtful) {
+    // Both would be the same map. This one begins once more, from the images that follow.
+    map_.odometry = map_.odometry->unstarted(patient_, pool_);
+    output = map_.odometry->process(item.frame);
+  } else if (begins) {
+    start_ = output.frame.frame_id;
+  }
+  map_.records.push_back(output.frame);
+  for (const FrameRecord& late : output.late) replace_record(map_.records, late);
+  std::move(output.finished.begin(), output.finished.end(), std::back_inserter(map_.keyframes));
+}
+
 bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const FrameRecord& first) {
   const bool is_tracked = first.state == TrackingState::kTracked;
-  if (is_tracked && first_start_ < 0) first_start_ = first.frame_id;
-  if (first_start_ >= 0) ++age_;
+  const bool begins = is_tracked && first_start_ < 0;
+  if (begins) first_start_ = first.frame_id;
+  ++(first_start_ < 0 ? waited_ : age_);
   // A loss has its own remedies; and who begins with the same frame comes to the same map.
   is_over_ = is_over_ || (first_start_ >= 0 && (!is_tracked || start_ == first_start_));
-  if (!is_over_) queue_.push(frame);
+  if (!is_over_) queue_.push({frame, begins, waited_ > kPromptStart});
   return is_over_ || age_ >= settings_.second_frames;
 }
 

@@ -44,19 +44,28 @@ class SecondStart {
   std::optional<SecondMap> finish(const std::vector<FrameRecord>& first, std::string& verdict);
 
  private:
+  struct Item {
+    std::shared_ptr<const PreparedFrame> frame;
+    bool first_begins = false;  ///< The first map begins with this frame.
+    bool is_doubtful = false;   ///< It had to be waited for.
+  };
   void work(const std::stop_token& stop);
+  void process(const Item& item);
   /// Median over the frames that both track of the second map's residuals relative to the first one's; infinite if it
   /// does not track all of them from its start on, or has not begun.
   double residual_ratio(const std::vector<FrameRecord>& first_records) const;
 
   RevisionSettings settings_;
   std::int64_t first_start_ = -1;  ///< The frame at which the first map began.
+  int waited_ = 0;                 ///< Frames before that.
   int age_ = 0;                    ///< Of the first map [frames].
   bool is_over_ = false;           ///< The first map is lost, or both are the same.
   SecondMap map_;
+  ThreadPool& pool_;
+  Settings patient_;                      ///< Of the second odometry.
   std::atomic<std::int64_t> start_ = -1;  ///< The frame at which the second map began.
   std::string failure_;
-  BoundedQueue<std::shared_ptr<const PreparedFrame>> queue_;
+  BoundedQueue<Item> queue_;
   std::jthread thread_;  ///< Declared last: it uses the others and is joined first.
 };
 

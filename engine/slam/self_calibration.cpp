@@ -75,6 +75,12 @@ double SelfCalibration::deviations() const {
   return worth_it ? std::sqrt(better.chi2) : 0;
 }
 
+LensVector SelfCalibration::stddevs() const {
+  LensVector stddevs = estimate().stddevs;
+  stddevs[kLensDof] *= 1e3;
+  return stddevs;
+}
+
 Calibration SelfCalibration::better() const {
   Calibration better = calibration_;
   better.camera = estimate().camera;

@@ -23,6 +23,9 @@ class SelfCalibration {
   /// to matter, if it comes from few windows, or if it is so large that something else must be wrong.
   double deviations() const;
 
+  /// How well the lens is known, readout in ms.
+  LensVector stddevs() const;
+
   /// The calibration with the lens that the residuals so far speak for, and with the shutter if they do so for certain.
   Calibration better() const;
 

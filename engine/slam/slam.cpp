@@ -48,8 +48,19 @@ FrameRecord Slam::Impl::process(ImageView<const T> image, double timestamp, std:
   return frame;
 }
 
+namespace {
+
+/// Frames that come one by one cannot wait for a camera to be found.
+const Calibration& known(const Calibration& calibration) {
+  if (!calibration.is_guess()) return calibration;
+  throw Error("calibration", "there is none of the camera, and it cannot be found from frames that come one by one",
+              "give one, or let run_sequence() look for it in a sequence that can be read again");
+}
+
+}  // namespace
+
 Slam::Slam(const Calibration& calibration, const Settings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
-    : impl_(std::make_unique<Impl>(calibration, settings, std::move(log), std::move(observer))) {}
+    : impl_(std::make_unique<Impl>(known(calibration), settings, std::move(log), std::move(observer))) {}
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;

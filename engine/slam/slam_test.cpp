@@ -244,6 +244,12 @@ TEST(Slam, SaysThatTheImagesContradictTheCalibration) {
   EXPECT_FALSE(run(Settings{}).better_calibration);
 }
 
+TEST(Slam, RefusesACalibrationThatIsAGuess) {
+  Calibration guess = scene_calibration();
+  guess.source = CameraSource::kNone;
+  EXPECT_NE(error_of([&] { Slam(guess, Settings{}); }).find("run_sequence()"), std::string::npos);
+}
+
 TEST(Slam, RefusesSettingsOutOfRange) {
   Settings settings;
   settings.threads = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/pinhole_projection.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -78,12 +79,25 @@ WindowFit fit_of(const Window& window) {
           std::log(std::max(1e-3, share))};
 }
 
+std::optional<WindowFit> mean_difference(const std::vector<WindowFit>& before, const std::vector<WindowFit>& after,
+                                         std::size_t least) {
+  const std::vector<WindowFit> changes = differences(before, after);
+  if (changes.empty() || changes.size() < least) return std::nullopt;
+  WindowFit mean{changes.back().frame_id, 0, 0};
+  for (const WindowFit& change : changes) {
+    mean.log_rmse += change.log_rmse / static_cast<double>(changes.size());
+    mean.log_inlier_share += change.log_inlier_share / static_cast<double>(changes.size());
+  }
+  return mean;
+}
+
 FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<WindowFit>& after) {
   const std::vector<WindowFit> changes = differences(before, after);
   FitChange result;
   if (changes.size() < kStretches * kLeastInStretch) return result;
   result.worst = -std::numeric_limits<double>::infinity();
   double squares = 0;
+  std::vector<double> residuals;
   for (std::size_t k = 0; k < kStretches; ++k) {
     const std::size_t begin = k * changes.size() / kStretches, end = (k + 1) * changes.size() / kStretches;
     double residual = 0;
@@ -94,7 +108,9 @@ FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<W
     result.residual += residual / kStretches;
     result.worst = std::max(result.worst, residual);
     squares += residual * residual;
+    residuals.push_back(residual);
   }
+  result.median = upper_median(residuals);
   const double variance = (squares - kStretches * result.residual * result.residual) / (kStretches - 1);
   result.stddev = std::sqrt(std::max(0.0, variance) / kStretches);
   result.is_known = true;

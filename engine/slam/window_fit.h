@@ -3,7 +3,9 @@
 // How well the windows of a run explain their images, and whether those of another run over the same frames do it
 // better: the proof of a calibration.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "odometry/state/window.h"
@@ -22,11 +24,17 @@ WindowFit fit_of(const Window& window);
 /// Of one run against another, over the frames that both have; logarithms of ratios.
 struct FitChange {
   bool is_known = false;    ///< There were enough windows.
-  double residual = 0;      ///< Of the root mean squared residuals: negative if they have become smaller.
-  double stddev = 0;        ///< Of that, from how it varies along the sequence.
+  double residual = 0;      ///< Of the root mean squared residuals: negative if they have become smaller. The mean.
+  double median = 0;        ///< The same of the middle one of its stretches: a single one may differ by chance.
+  double stddev = 0;        ///< Of that mean, from how it varies along the sequence.
   double worst = 0;         ///< The largest of its stretches: negative if the residuals have become smaller in each.
   double inlier_share = 0;  ///< Of the inliers' share: negative if fewer are left.
 };
+
+/// The mean over the windows of `after` between the frames of `before`, at their frames; nothing if they are fewer than
+/// `least`. Both in the order of their frames.
+std::optional<WindowFit> mean_difference(const std::vector<WindowFit>& before, const std::vector<WindowFit>& after,
+                                         std::size_t least);
 
 /// Both in the order of their frames.
 FitChange compare_fits(const std::vector<WindowFit>& before, const std::vector<WindowFit>& after);

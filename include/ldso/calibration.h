@@ -57,6 +57,14 @@ struct PhotometricCalibration {
   Image<float> vignette;
 };
 
+/// Where a calibration is from. All but the first are of a camera that might have taken images of this size: what is
+/// run with one of them as it is will be wrong; a run over a sequence looks for the camera first.
+enum class CameraSource {
+  kCalibrated,
+  kMetadata,  ///< The focal length as the images' metadata have it.
+  kNone,      ///< Nobody said anything.
+};
+
 struct Calibration {
   CameraCalibration camera;
   Rectification rectification;
@@ -65,6 +73,9 @@ struct Calibration {
   std::string description;
   /// What is doubtful about it, though a camera may be like that.
   std::vector<std::string> warnings;
+  CameraSource source = CameraSource::kCalibrated;
+
+  bool is_guess() const { return source != CameraSource::kCalibrated; }
 };
 
 }  // namespace ldso

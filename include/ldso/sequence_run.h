@@ -3,6 +3,7 @@
 // A whole sequence, offline: every frame, in order, read and preprocessed ahead on a thread of its own; begun anew
 // where its calibration turns out to be wrong. This is what `ldso run` does.
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -46,6 +47,14 @@ struct LiveFigures {
   double worst_latency_ms = 0;
 };
 
+/// Of a sequence whose camera nobody had calibrated.
+struct FoundCamera {
+  /// How well it is known: standard deviations of fx, fy, cx, cy [px], the first two distortion coefficients and the
+  /// readout [ms].
+  std::array<double, 7> stddevs{};
+  std::string doubt;  ///< Why it is not known; empty if it is.
+};
+
 struct SequenceRun {
   SlamResult result;
   Calibration calibration;         ///< What the frames were read with in the end: the source's or a better one.
@@ -53,9 +62,10 @@ struct SequenceRun {
   bool is_corrected = false;       ///< `calibration` is a better one that has proven itself.
   std::string proof;               ///< What speaks for it; empty if nothing was corrected.
   std::string refused_correction;  ///< A better one that was tried and did not prove itself, and why not; or empty.
-  bool stopped = false;            ///< Before its last frame, by the flag.
-  std::string error;               ///< Why it ended early otherwise; what was done until then is in `result`.
-  double seconds = 0;              ///< Wall time of all frames.
+  std::optional<FoundCamera> found_camera = std::nullopt;
+  bool stopped = false;  ///< Before its last frame, by the flag.
+  std::string error;     ///< Why it ended early otherwise; what was done until then is in `result`.
+  double seconds = 0;    ///< Wall time of all frames.
   std::optional<LiveFigures> live = std::nullopt;  ///< Of a live run.
 };
 

@@ -23,11 +23,23 @@ class DamagedDataset : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(DamagedDataset, MissingCalibrationIsAnError) {
+TEST_F(DamagedDataset, WithoutCalibrationTheCameraIsAGuess) {
+  EXPECT_FALSE(open()->calibration().is_guess());
   fs::remove(folder_ / "camera.txt");
-  const std::string message = error_of([&] { open(); });
-  EXPECT_NE(message.find("camera.txt: there is no calibration"), std::string::npos) << message;
-  EXPECT_NE(message.find("--calib"), std::string::npos) << message;
+  std::string response;
+  for (int level = 0; level < 256; ++level) response += std::to_string(level) + " ";
+  write_text(folder_ / "pcalib.txt", response);
+  const Calibration calibration = open()->calibration();
+  EXPECT_EQ(calibration.source, CameraSource::kNone);
+  EXPECT_EQ(calibration.camera.width, 32);
+  EXPECT_EQ(calibration.camera.height, 24);
+  EXPECT_TRUE(calibration.photometric.inverse_response) << "what is known of its photometry stays";
+}
+
+TEST_F(DamagedDataset, AMissingFileThatWasNamedIsAnError) {
+  DatasetOptions options;
+  options.calibration_file = folder_ / "there_is_none.txt";
+  EXPECT_NE(error_of([&] { open_dataset(folder_.path(), options); }).find("there_is_none.txt"), std::string::npos);
 }
 
 TEST_F(DamagedDataset, ShortCalibrationIsAnError) {

@@ -25,12 +25,12 @@ bool is_there(const fs::path& path) {
 
 Calibration read_calibration(const fs::path& folder, const DatasetOptions& options) {
   const fs::path camera = options.calibration_file.value_or(find_calibration(folder));
-  if (!is_there(camera)) {
-    throw Error(camera.string(), "there is no calibration of the camera",
-                "write a camera.txt (four lines: model and intrinsics, image size, crop, output size) into the folder "
-                "or give one with --calib");
+  Calibration calibration;
+  if (options.calibration_file || is_there(camera)) {
+    calibration = read_camera_calibration(camera);
+  } else {
+    calibration.source = CameraSource::kNone;  // Which one is known once an image has been seen.
   }
-  Calibration calibration = read_camera_calibration(camera);
   read_photometric_calibration(folder, calibration);
   return calibration;
 }

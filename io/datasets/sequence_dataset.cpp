@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "io/calibration/calibration_doubts.h"
+#include "io/calibration/guessed_calibration.h"
 #include "io/datasets/sequence_images.h"
+#include "io/images/exif.h"
 #include "io/images/image_file.h"
 #include "ldso/error.h"
 
@@ -46,10 +48,20 @@ ImageSize representative_size(const Sequence& sequence, int wanted_width, int wa
   return *first;
 }
 
+/// Of a camera that nobody calibrated. What is known of its photometry stays.
+void guess_camera(Sequence& sequence, const ImageSize& size) {
+  const std::vector<std::uint8_t> bytes = sequence.images->read(sequence.frames.front().name);
+  Calibration guess = guess_calibration(size.width, size.height, exif_focal_35mm(bytes));
+  guess.photometric = std::move(sequence.calibration.photometric);
+  sequence.calibration = std::move(guess);
+}
+
 void fit_calibration_to_images(Sequence& sequence) {
   CameraCalibration& camera = sequence.calibration.camera;
   const ImageSize size = representative_size(sequence, camera.width, camera.height);
-  if (camera.width == 0 && camera.height == 0) {
+  if (sequence.calibration.is_guess()) {
+    guess_camera(sequence, size);
+  } else if (camera.width == 0 && camera.height == 0) {
     camera.width = size.width;
     camera.height = size.height;
     doubt_intrinsics(camera, sequence.calibration.description, sequence.calibration.warnings);

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "io/images/exif.h"
 #include "io/images/image_file.h"
-#include "io/images/image_orientation.h"
 #include "ldso/error.h"
 
 namespace ldso {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/calibration/foreign_calibration.h"
+#include "io/calibration/guessed_calibration.h"
 #include "io/calibration/unused_photometry.h"
 #include "io/datasets/video_reader.h"
 #include "io/images/image_file.h"
@@ -37,11 +38,11 @@ std::string size_text(int width, int height) { return std::to_string(width) + "x
 class VideoDataset final : public Dataset {
  public:
   VideoDataset(const fs::path& path, const DatasetOptions& options) : path_(path), reader_(path) {
-    calibration_ = read_calibration(options);
     const bool from_the_start = options.end && *options.end > 0;
     VideoTimes found = reader_.scan(from_the_start ? options.end : std::nullopt);
     count_ = found.frames;
     if (count_ == 0) throw Error(path_.string(), "the video has no frame that can be decoded", "convert it again");
+    calibration_ = read_calibration(options);
     set_times(std::move(found.seconds), options);
     check_size();
     warnings_.insert(warnings_.end(), calibration_.warnings.begin(), calibration_.warnings.end());
@@ -68,14 +69,12 @@ class VideoDataset final : public Dataset {
   }
 
  private:
-  Calibration read_calibration(const DatasetOptions& options) const {
+  Calibration read_calibration(const DatasetOptions& options) {
     std::error_code error;
     const fs::path camera = options.calibration_file.value_or(find_calibration(path_.parent_path()));
-    if (!fs::exists(camera, error)) {
-      throw Error(camera.string(), "there is no calibration of the camera that took the video",
-                  "write a camera.txt beside the video or give one with --calib");
-    }
-    return read_camera_calibration(camera);
+    if (options.calibration_file || fs::exists(camera, error)) return read_camera_calibration(camera);
+    const cv::Mat first = reader_.read(0);
+    return guess_calibration(first.cols, first.rows, std::nullopt);
   }
 
   /// The file's own times, unless a rate is given.

@@ -142,11 +142,15 @@ TEST(VideoDataset, IsRecognizedByItsContentWhateverItsName) {
   for (const char* name : {"notes", "noise", "image.png", "camera.txt"}) EXPECT_FALSE(is_video(folder / name)) << name;
 }
 
-TEST(VideoDataset, NeedsACalibration) {
+TEST(VideoDataset, WithoutCalibrationTheCameraIsAGuess) {
   const TemporaryFolder folder;
   const fs::path file = make_video(folder.path(), 3);
+  const CameraCalibration known = open_video(file, {})->calibration().camera;
   fs::remove(folder / "camera.txt");
-  EXPECT_NE(error_of([&] { open_video(file, {}); }).find("--calib"), std::string::npos);
+  const Calibration guess = open_video(file, {})->calibration();
+  EXPECT_TRUE(guess.is_guess());
+  EXPECT_EQ(guess.camera.width, known.width);
+  EXPECT_EQ(guess.camera.height, known.height);
 }
 
 TEST(VideoDataset, DamagedFilesAreErrors) {

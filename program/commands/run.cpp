@@ -147,6 +147,10 @@ Input open_input(const RunArguments& a) {
     return input;
   }
   input.dataset = open_dataset(a.sequence, a.dataset);
+  if (a.live && input.dataset->calibration().is_guess()) {
+    throw Error(a.sequence.string(), "there is no calibration of the camera, and a live run cannot look for it",
+                "run it without --live first, which writes camera.txt, and give that with --calib");
+  }
   if (a.live) input.stream = make_paced_stream(*input.dataset);
   return input;
 }

@@ -78,10 +78,12 @@ void write_segments(OutputFolder& out, const RunSummary& summary) {
   }
 }
 
-/// The calibration that was found to be better, if one was.
+/// The calibration that was found, or found to be better, if one was.
 void write_cameras(OutputFolder& out, const RunSummary& summary) {
   for (const char* name : {kCameraName, kBetterCameraName}) out.remove(name);
-  if (summary.run.is_corrected) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
+  const std::optional<FoundCamera>& found = summary.run.found_camera;
+  const bool is_new = found ? found->doubt.empty() : summary.run.is_corrected;
+  if (is_new) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
   if (summary.run.result.better_calibration)
     write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.result.better_calibration));
 }

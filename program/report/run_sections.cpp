@@ -207,11 +207,30 @@ std::string warning_lists(const RunSummary& summary) {
   return untracked_table(summary) + warning_list(summary.warnings);
 }
 
+std::string found_camera_note(const FoundCamera& found) {
+  if (found.doubt.empty()) {
+    return html::element("p",
+                         format_text("Nobody had calibrated the camera; it was found from the images. Standard "
+                                     "deviation of the focal length: %.1f px. camera.txt holds it.",
+                                     found.stddevs[0]),
+                         "note");
+  }
+  return html::element("p",
+                       "Nobody had calibrated the camera, and this sequence does not tell how it sees: " + found.doubt +
+                           ". The shape of trajectory and map may be wrong.",
+                       "warning");
+}
+
 std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
   const Calibration& given = dataset.calibration();
   const SequenceRun& run = summary.run;
-  Rows rows = {camera_row(run.is_corrected ? "as given" : "calibration", given.camera)};
-  if (run.is_corrected) rows.push_back(camera_row("as corrected", run.calibration.camera));
+  Rows rows;
+  if (run.found_camera) {
+    rows.push_back(camera_row(run.found_camera->doubt.empty() ? "found" : "used", run.calibration.camera));
+  } else {
+    rows.push_back(camera_row(run.is_corrected ? "as given" : "calibration", given.camera));
+  }
+  if (run.is_corrected && !run.found_camera) rows.push_back(camera_row("as corrected", run.calibration.camera));
   if (run.result.better_calibration) rows.push_back(camera_row("better", run.result.better_calibration->camera));
   const PinholeIntrinsics& rectified = run.result.camera;
   rows.push_back(camera_row("rectified, as estimated", {CameraModelKind::kPinhole,
@@ -223,7 +242,9 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
                                                         rectified.cy,
                                                         {}}));
   std::string html = html::table({"", "model", "fx", "fy", "cx", "cy", "distortion", "readout [ms]"}, rows, {0, 1, 6});
-  if (run.is_corrected) {
+  if (run.found_camera) {
+    html += found_camera_note(*run.found_camera);
+  } else if (run.is_corrected) {
     html +=
         html::element("p",
                       format_text("The images contradicted the calibration: it was corrected and the run begun anew, "

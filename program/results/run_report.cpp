@@ -42,6 +42,11 @@ Json json_of(const PinholeIntrinsics& camera) {
           {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
 }
 
+Json found_json(const SequenceRun& run) {
+  if (!run.found_camera) return nullptr;
+  return {{"stddevs", run.found_camera->stddevs}, {"doubt", run.found_camera->doubt}};
+}
+
 Json self_calibration_json(const SequenceRun& run) {
   const CameraCalibration& camera = run.calibration.camera;
   return {{"passes", run.passes},
@@ -49,6 +54,7 @@ Json self_calibration_json(const SequenceRun& run) {
           {"proof", run.proof},
           {"refused", run.refused_correction},
           {"contradicted", run.result.better_calibration.has_value()},
+          {"found", found_json(run)},
           {"camera",
            {{"model", model_name(camera.model)},
             {"fx", camera.fx},
@@ -152,14 +158,26 @@ std::string evaluation_text(const RunSummary& summary) {
          format_text("               %.6f m before loop closing\n", summary.odometry_evaluation.result->absolute.rmse);
 }
 
+std::string camera_text(const SequenceRun& run) {
+  const CameraCalibration& camera = run.calibration.camera;
+  std::string text =
+      format_text("focal lengths %.1f %.1f px, distortion %.4f", camera.fx, camera.fy, camera.distortion[0]);
+  if (camera.readout_ms != 0) text += format_text(", rolling shutter %.1f ms", camera.readout_ms);
+  return text;
+}
+
+std::string found_text(const SequenceRun& run) {
+  if (!run.found_camera->doubt.empty())
+    return "calibration    unknown, and not found: " + run.found_camera->doubt + "; used: " + camera_text(run) + "\n";
+  return "calibration    found: " + camera_text(run) +
+         format_text(" (+- %.1f px; camera.txt)\n", run.found_camera->stddevs[0]);
+}
+
 std::string calibration_text(const SequenceRun& run) {
+  if (run.found_camera) return found_text(run);
   if (!run.refused_correction.empty()) return "calibration    as given; refused: " + run.refused_correction + "\n";
   if (!run.is_corrected) return "";
-  const CameraCalibration& camera = run.calibration.camera;
-  std::string text = format_text("calibration    corrected: focal lengths %.1f %.1f px, distortion %.4f", camera.fx,
-                                 camera.fy, camera.distortion[0]);
-  if (camera.readout_ms != 0) text += format_text(", rolling shutter %.1f ms", camera.readout_ms);
-  return text + " (camera.txt)\n";
+  return "calibration    corrected: " + camera_text(run) + " (camera.txt)\n";
 }
 
 std::string live_text(const SequenceRun& run) {

@@ -110,6 +110,7 @@ double dispersion(const std::vector<ScaledWindow>& windows, const Joint& joint, 
 
 LensSolution solve_lens(const std::vector<LensWindow>& windows, const Eigen::MatrixXd& unit) {
   LensSolution solution;
+  solution.stddevs = unit.rowwise().norm();
   if (static_cast<int>(windows.size()) < kLeastBlocks) return solution;
   std::vector<ScaledWindow> scaled;
   for (const LensWindow& window : windows) {
@@ -117,18 +118,21 @@ LensSolution solve_lens(const std::vector<LensWindow>& windows, const Eigen::Mat
   }
   Joint joint = solve_joint(scaled);
   solution.overdispersion = reweight(scaled, joint);
+  LensVector variances = LensVector::Zero();
   for (Eigen::Index i = 0; i < joint.z.size(); ++i) {
     const Eigen::VectorXd direction = joint.directions.col(i);
     const double factor = std::max(solution.overdispersion, dispersion(scaled, joint, direction));
     const double variance = joint.information[i] > 0 ? factor / joint.information[i] : 1;
+    const Eigen::VectorXd along = unit * direction;
+    variances += std::min(1.0, variance) * along.cwiseAbs2();
     if (variance > kDeterminedShare * kDeterminedShare) continue;
     const double length = direction.dot(joint.z);
-    const Eigen::VectorXd along = unit * direction;
     solution.change += length * along;
     solution.covariance += variance * along * along.transpose();
     solution.chi2 += length * length / variance;
     ++solution.determined;
   }
+  solution.stddevs = variances.cwiseSqrt();
   return solution;
 }
 

@@ -28,7 +28,9 @@ struct LensWindow {
 struct LensSolution {
   LensVector change = LensVector::Zero();
   LensMatrix covariance = LensMatrix::Zero();  ///< Of the change, in the directions that are determined.
-  double chi2 = 0;                             ///< The change in its standard deviations, squared.
+  /// Of the parameters with the change applied, the directions included that only the given calibration tells.
+  LensVector stddevs = LensVector::Zero();
+  double chi2 = 0;            ///< The change in its standard deviations, squared.
   double overdispersion = 1;  ///< Median over the windows of their squared distance from the solution, at least 1.
   int determined = 0;         ///< Directions of the parameters.
 };

@@ -1,4 +1,4 @@
-#include "io/images/image_orientation.h"
+#include "io/images/exif.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,28 @@ TEST(ImageOrientation, ImagesAreDecodedAsTheyAreStored) {
     EXPECT_LT(image(4, 8), 40);
     EXPECT_GT(image(28, 8), 200);
   }
+}
+
+/// A JPEG whose EXIF says the focal length in a directory of its own.
+JpegBytes jpeg_with_focal_length(std::uint8_t millimetres) {
+  JpegBytes bytes;
+  cv::imencode(".jpg", cv::Mat(16, 32, CV_8UC1, cv::Scalar(20)), bytes);
+  const JpegBytes tiff{'I', 'I', 42, 0, 8, 0, 0, 0,    1, 0, 0x69, 0x87, 4, 0, 1,           0, 0, 0, 26, 0, 0, 0,
+                       0,   0,   0,  0, 1, 0, 5, 0xa4, 3, 0, 1,    0,    0, 0, millimetres, 0, 0, 0, 0,  0, 0, 0};
+  JpegBytes exif{0xff, 0xe1, 0, static_cast<std::uint8_t>(8 + tiff.size()), 'E', 'x', 'i', 'f', 0, 0};
+  exif.insert(exif.end(), tiff.begin(), tiff.end());
+  bytes.insert(bytes.begin() + 2, exif.begin(), exif.end());
+  return bytes;
+}
+
+TEST(ExifFocalLength, IsReadIfThereIsOne) {
+  EXPECT_EQ(exif_focal_35mm(jpeg_with_focal_length(26)), 26);
+  EXPECT_FALSE(exif_focal_35mm(jpeg_with_focal_length(0)));
+  EXPECT_FALSE(exif_focal_35mm(jpeg_with_orientation(6, true)));
+  EXPECT_FALSE(exif_focal_35mm({}));
+  const JpegBytes whole = jpeg_with_focal_length(26);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_EQ(exif_focal_35mm({whole.data(), size}).value_or(26), 26) << size;
 }
 
 TEST(ImageOrientation, IsNoneOfWhatIsDamaged) {
