@@ -16,7 +16,7 @@ if [[ -z $formatter ]]; then
   exit 77
 fi
 
-mapfile -t files < <(find include engine io tools program tests bench fuzz -name '*.h' -o -name '*.cpp' | sort)
+mapfile -t files < <(find include engine io tools program python tests bench fuzz -name '*.h' -o -name '*.cpp' | sort)
 if [[ ${1:-} == --fix ]]; then
   "$formatter" -i "${files[@]}"
   exit 0

@@ -11,7 +11,8 @@ import source_measures
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # The parts of the project, and the folder that the includes of their files are relative to.
-PARTS = {"engine": "engine", "io": "", "tools": "tools", "program": "program"}
+PARTS = {"engine": "engine", "io": "", "tools": "tools", "program": "program",
+         "python": "python", "c": "c"}
 
 # What the files of a room may include beside their own room and include/ldso: the rooms named here and, with each of
 # them, its folders and all that it may include itself. A folder inside a room counts as a room of its own where it is
@@ -37,6 +38,7 @@ ROOMS = {
     "mapping/graph": ["mapping/map"],
     "mapping": ["mapping/verification", "mapping/graph"],
     "slam": ["odometry", "mapping"],
+    "sequence": ["slam"],
     # io
     "io/text": ["util"],
     "io/settings": ["io/text", "settings"],
@@ -57,7 +59,7 @@ ROOMS = {
     "experiment": ["experiment/summary", "experiment/plan"],
     # program
     "camera": ["io/datasets"],
-    "running": ["slam", "camera"],
+    "running": ["sequence", "camera"],
     "viewer/map": ["io/datasets"],
     "viewer/recording": ["viewer/map"],
     "viewer/server": ["viewer/map"],
@@ -69,6 +71,10 @@ ROOMS = {
     "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
     "commands": ["commands/experiment"],
     "": ["commands"],  # program/main.cpp
+    # c
+    "interface": ["sequence", "io/datasets", "io/settings"],
+    # python
+    "bindings": ["output", "simulation/sequences"],
 }
 
 # Libraries that stay inside rooms.
@@ -79,6 +85,7 @@ LIBRARIES = {
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
     r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},
+    r"pybind11/": {"bindings"},
     r"ceres/": {"mapping"},
     r"hwy/": {"image", "odometry", "simulation"},
 }
@@ -160,7 +167,7 @@ def check_rooms(path, room):
         other = resolve(name)
         if other is None:
             problem(path, line, f"there is no {name}: includes are relative to engine/, tools/, program/ or the project")
-        elif name.startswith("ldso/") or (is_test(path) and is_test(other)):
+        elif name.startswith("ldso/") or name == "ldso.h" or (is_test(path) and is_test(other)):
             pass  # tests share helpers
         elif is_test(path) and name.split("/")[0] == room.split("/")[0]:
             pass  # and see all of their room
@@ -321,7 +328,7 @@ def main():
             check_habits(path, PROCESS_HABITS)
         if path.suffix == ".h":
             # Highway's *-inl.h are included once for each instruction set.
-            if not path.stem.endswith("-inl"):
+            if not path.stem.endswith("-inl") and path.name != "ldso.h":  # That is C.
                 check_pragma_once(path)
             check_habits(path, HEADER_HABITS)
     headers = public + [p for p in sources if p.suffix == ".h"]

@@ -34,7 +34,7 @@ sequence=$out/sequence
 result=$out/result
 
 step "Installing what is missing"
-scripts/install_packages.sh build
+scripts/install_packages.sh build python
 install_node
 
 step "Building $ldso"

@@ -36,7 +36,7 @@ if [[ -n $rooms ]]; then
   ctest_options+=(-R "^($(tr ' ' '|' <<<"${names[*]}"))/")
 fi
 
-scripts/install_packages.sh build test
+scripts/install_packages.sh build python test
 install_node
 configure "$preset"
 build "$preset" "${targets[@]}"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # run_consumer.sh BUILD-FOLDER WORK COMPILER OPTIONS...: installs the built library part by part, builds with it the
 # projects of consumer/ (the engine alone) and consumer_io/ (its files as well) as any other project would, and runs
-# them. What a part does not need must neither be looked for nor linked.
+# them; then one that leaves results as the program does (consumer_output/). What a part does not need must neither be
+# looked for nor linked.
 set -euo pipefail
 export LC_ALL=C
 build=$1 work=$2/consumer compiler=$3
@@ -69,6 +70,27 @@ cmake --build "$work/io_build"
 # All of it. Only public headers are there, and they include nothing else of the project.
 cmake --install "$build" --prefix "$work/all" >>"$work/install.log"
 "$work/all/bin/ldso" --version
+
+# A project that leaves results as the program does: the same files to the bit, which the program takes.
+ldso=$work/all/bin/ldso
+configure "$here/consumer_output" "$work/output_build" -DCMAKE_PREFIX_PATH="$work/all" "${options[@]}"
+cmake --build "$work/output_build"
+"$ldso" simulate room -o "$work/room" --frames 60 --size 320x240 --seed 3
+"$ldso" run "$work/room" -o "$work/by_program" --quiet
+for way in all one; do
+  if [[ $way == all ]]; then
+    "$work/output_build/consumer" "$work/room" "$work/by_$way"
+    "$ldso" export "$work/by_$way" --format colmap
+  else
+    "$work/output_build/consumer" "$work/room" "$work/by_$way" one
+    "$ldso" export "$work/by_$way" --format colmap --images none
+  fi
+  for file in trajectory.txt keyframes.txt map.ply loops.json; do
+    cmp "$work/by_program/$file" "$work/by_$way/$file" || fail "$file of the library ($way) is not that of the program"
+  done
+  [[ -s $work/by_$way/export/colmap/sparse/0/points3D.txt ]] || fail "nothing was exported of what the library left"
+done
+
 if grep -rhoE '#include "[^"]+"' "$work/all/include" | grep -v '"ldso/'; then
   fail "public headers include private ones"
 fi

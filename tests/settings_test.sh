@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # settings_test.sh PROGRAM SEQUENCE WORK DOCS: what `ldso settings` prints can be set by its name, on the command line and
-# in a file; docs/settings.md is what the program prints.
+# in a file; docs/settings.md is what the program prints; docs/input-output.md tells all that run.json says.
 LDSO=$1 SEQUENCE=$2 WORK=$3/settings DOCS=$4
 rm -rf "$WORK" && mkdir -p "$WORK"
 source "$(dirname "${BASH_SOURCE[0]}")/test_tools.sh"
@@ -60,6 +60,16 @@ assert plain == defaults, set(plain.items()) ^ set(defaults.items())
 changed = dict(flat(load("changed/run.json")["settings"]))
 different = {k: v for k, v in changed.items() if v != defaults[k]}
 assert different == {"loops.graph.kernel": 9.5, "loops.matching.max_ratio": 0.7, "loops.confirmation.gap": 5}, different
+PY
+
+# The table of run.json in the docs has every key that a run writes, and no other.
+python3 - "$WORK/plain/run.json" "$DOCS/input-output.md" <<'PY'
+import json, re, sys
+written = set(json.load(open(sys.argv[1])))
+rows = re.search(r"\| key \| what \|\n\|---\|---\|\n((?:\|.*\n)+)", open(sys.argv[2]).read()).group(1)
+told = {key for row in rows.splitlines() for key in re.findall(r"`(\w+)`", row.split("|")[1])}
+if_corrected = {"evaluation_odometry", "loop_variance_factors"}
+assert written | if_corrected == told, (written | if_corrected) ^ told
 PY
 
 # Errors name file, line, range, unit, and the nearest name.

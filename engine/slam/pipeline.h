@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "image/frame.h"
 #include "image/frame_preprocessor.h"
@@ -46,6 +47,9 @@ class Pipeline {
   /// Pose of the newest frame, if it is tracked: the odometry's with the correction of the loops closed up to a fixed
   /// number of keyframes ago.
   std::optional<SE3d> T_world_camera() const;
+
+  /// What the frames so far say of the calibration; it is a part of the result.
+  void set_better_calibration(Calibration better) { result_.better_calibration = std::move(better); }
 
   int keyframes() const { return odometry_->keyframes(); }
   /// The keyframes that are being optimized.

@@ -75,7 +75,8 @@ std::vector<WorldPoint> SlamResult::points(Correction correction, int part) cons
       const Eigen::Vector3d position =
           poses_of_keyframes[i] * position_in_camera(keyframes[i].camera, keyframes[i].readout, point);
       if (!(point.idepth > 0) || !position.allFinite()) continue;
-      points.push_back({position, point.idepth_stddev, point.intensity});
+      points.push_back(
+          {position, point.idepth_stddev, point.intensity, keyframes[i].frame_id, Eigen::Vector2f(point.u, point.v)});
     }
   }
   return points;

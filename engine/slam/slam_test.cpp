@@ -200,6 +200,56 @@ TEST(Slam, NothingFollowsTheEnd) {
   EXPECT_NE(error_of([&] { slam.finish(); }).find("finished"), std::string::npos);
 }
 
+TEST(Slam, ASnapshotIsTheRunSoFarAndChangesNothing) {
+  Slam slam(scene_calibration(), Settings{});
+  for (int i = 0; i < kFrames; ++i) {
+    slam.process(draw_scene(i).view(), 0.1 * i);
+    const SlamResult so_far = slam.snapshot();
+    EXPECT_EQ(so_far.frames.size(), static_cast<std::size_t>(i + 1));
+    const auto poses = so_far.trajectory();
+    const bool is_tracked = slam.T_world_camera().has_value();
+    ASSERT_EQ(!poses.empty() && poses.back().frame_id == i, is_tracked);
+    if (!is_tracked) continue;
+    EXPECT_TRUE(poses.back().T_world_camera.matrix().isApprox(slam.T_world_camera()->matrix(), 1e-12));
+    EXPECT_GT(so_far.points().size(), 100u);
+  }
+  expect_equal(slam.finish(), run(Settings{}));
+  EXPECT_NE(error_of([&] { slam.snapshot(); }).find("finished"), std::string::npos);
+}
+
+TEST(Slam, SaysThatTheImagesContradictTheCalibration) {
+  Calibration wrong = scene_calibration();
+  wrong.camera.model = CameraModelKind::kRadTan;
+  wrong.camera.distortion = {0.15, 0, 0, 0};
+  wrong.rectification.mode = RectificationMode::kCrop;
+  std::string warnings;
+  const auto heard = [&](LogLevel level, const std::string& text) {
+    if (level == LogLevel::kWarning) warnings += text + "\n";
+  };
+  const auto track = [&](const Settings& settings) {
+    Slam slam(wrong, settings, heard);
+    for (int i = 0; i < 120; ++i) slam.process(draw_scene(i).view(), 0.1 * i);
+    return slam.finish();
+  };
+  const SlamResult result = track(Settings{});
+  ASSERT_TRUE(result.better_calibration);
+  EXPECT_LT(std::abs(result.better_calibration->camera.distortion[0]), 0.05);
+  EXPECT_NE(warnings.find("contradict the calibration"), std::string::npos) << warnings;
+
+  warnings.clear();
+  Settings unwatched;
+  unwatched.self_calibration.enabled = false;
+  EXPECT_FALSE(track(unwatched).better_calibration);
+  EXPECT_EQ(warnings.find("contradict"), std::string::npos) << warnings;
+  EXPECT_FALSE(run(Settings{}).better_calibration);
+}
+
+TEST(Slam, RefusesACalibrationThatIsAGuess) {
+  Calibration guess = scene_calibration();
+  guess.source = CameraSource::kNone;
+  EXPECT_NE(error_of([&] { Slam(guess, Settings{}); }).find("run_sequence()"), std::string::npos);
+}
+
 TEST(Slam, RefusesSettingsOutOfRange) {
   Settings settings;
   settings.threads = 0;

@@ -34,6 +34,8 @@ struct WorldPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [map units]
   float idepth_stddev = 0;                             ///< Of the inverse depth in the host keyframe [1 / map unit].
   float intensity = 0;                                 ///< Irradiance, 0..255.
+  std::int64_t keyframe_id = -1;                       ///< The host keyframe (its frame_id).
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero();     ///< Where the host sees it (rectified image) [px].
 };
 
 /// Time spent in one stage of the processing.
@@ -63,6 +65,9 @@ struct SlamResult {
   std::vector<std::int64_t> initializations;
   int restarts = 0;  ///< How often the map was lost and a new one begun.
   int skipped = 0;   ///< Frames that could not be used.
+  /// A calibration that explains the images better than the given one, if they contradict it. Frames that come one by
+  /// one cannot begin anew with it: take it for the next run, or let run_sequence() (sequence_run.h) do so by itself.
+  std::optional<Calibration> better_calibration;
   std::map<std::string, StageTime> stage_times;
 
   /// Parts of the map that share no coordinates: each map that was begun after a loss, but for those that a loop has
@@ -86,9 +91,9 @@ struct SlamResult {
 /// `Settings::threads` is. One object must not be used from several threads at once; several objects may.
 class Slam {
  public:
-  /// `log` hears of losses and restarts; it may be empty. `observer` hears of everything while it happens (to show it,
-  /// for instance: ldso/viewer.h); there need not be one.
-  /// Throws Error if the calibration or a setting makes no sense.
+  /// `log` hears of losses and restarts, and of a calibration that the images contradict; it may be empty. `observer`
+  /// hears of everything while it happens (to show it, for instance: ldso/viewer.h); there need not be one. Throws
+  /// Error if the calibration or a setting makes no sense.
   Slam(const Calibration& calibration, const Settings& settings, LogSink log = {},
        std::shared_ptr<RunObserver> observer = {});
   ~Slam();
@@ -112,6 +117,11 @@ class Slam {
 
   /// The camera of the rectified images that tracking works on.
   PinholeIntrinsics rectified_camera() const;
+
+  /// The result of the frames so far, as if no other followed, but for what only the end brings: the loops have no
+  /// matches, and refused ones and times are missing. Poses and points of the sliding window are as now estimated. The
+  /// run goes on as if nobody had asked. It is a copy of the whole map: once a second is often.
+  SlamResult snapshot() const;
 
   /// Ends the run and hands over its result. No frame can follow.
   SlamResult finish();

@@ -4,8 +4,8 @@
 
 #include "io/datasets/test_sequences.h"
 #include "io/images/image_file.h"
-#include "io/images/prefetching_reader.h"
 #include "ldso/io/dataset.h"
+#include "util/prefetching_reader.h"
 
 namespace ldso {
 namespace {

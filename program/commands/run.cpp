@@ -1,4 +1,3 @@
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -13,19 +12,17 @@
 #include "commands/live_truth.h"
 #include "ldso/error.h"
 #include "ldso/io/settings_file.h"
+#include "ldso/sequence_run.h"
 #include "output/checkpoint_writer.h"
 #include "output/run_as_job.h"
 #include "output/run_files.h"
-#include "report/report_page.h"
-#include "results/loop_pictures.h"
+#include "output/run_results.h"
 #include "results/run_report.h"
 #include "running/live_runner.h"
-#include "running/sequence_runner.h"
 #include "terminal/browser.h"
 #include "terminal/interrupt.h"
 #include "terminal/option_checks.h"
 #include "terminal/progress_display.h"
-#include "util/out_of_memory.h"
 #include "viewer/live_run.h"
 
 namespace ldso {
@@ -212,37 +209,11 @@ bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
   return interrupt.flag();
 }
 
-/// Frames that cannot be read again cost their pictures only.
-void draw_loops(const RunArguments& a, const Dataset& dataset, OutputFolder& out, RunSummary& summary) {
-  if (out.owns(kLoopPictureFolder)) remove_loop_pictures(out.path());
-  out.remove(kLoopPictureFolder);
-  if (!a.loop_pictures) return;
-  out.file(kLoopPictureFolder);
-  for (std::string& warning : write_loop_pictures(out.path(), summary.run.result.loops, dataset,
-                                                  summary.run.calibration, summary.settings.photometry)) {
-    std::cerr << "warning: " << warning << "\n";
-    summary.warnings.push_back(std::move(warning));
-  }
-}
-
-/// Does it; what it throws becomes a problem of the results, and costs nothing else.
-template <class Action>
-void keep_going(const Action& action, std::vector<std::string>& problems) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    problems.push_back(problem_of(error, "writing results"));
-  }
-}
-
 /// Everything that the run leaves, as far as it can be written; what could not be is said. Whether all was.
 bool write_results(const RunArguments& a, const Dataset& dataset, OutputFolder& out, RunSummary& summary) {
-  // What was computed is safe before pictures read frames again.
-  std::vector<std::string> problems = write_run_files(out, summary, a.kitti);
-  keep_going([&] { draw_loops(a, dataset, out, summary); }, problems);
-  if (!a.no_report) keep_going([&] { write_report(out.file(kReportName), summary, dataset); }, problems);
-  if (!problems.empty() && summary.run.error.empty()) summary.run.error = "results are missing: " + problems.front();
-  keep_going([&] { write_run_json(out, summary, dataset); }, problems);
+  const auto warn = [](const std::string& warning) { std::cerr << "warning: " << warning << "\n"; };
+  const std::vector<std::string> problems =
+      write_run_results(out, summary, dataset, {a.kitti, a.loop_pictures, !a.no_report}, warn);
   for (const std::string& problem : problems) std::cerr << "error: " << problem << "\n";
   return problems.empty();
 }
@@ -275,9 +246,6 @@ int run(const RunArguments& a) {
   if (a.view) announce_page(live.url());
 
   const bool was_interrupted = run_with_display(input, a, live, out, summary);
-  collect_results(summary);
-  summary.evaluation = evaluate_run(summary.trajectory, dataset);
-  if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
   const std::string ended_early = summary.run.error;
   const bool is_complete = write_results(a, dataset, out, summary);
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";

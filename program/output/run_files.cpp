@@ -12,6 +12,7 @@
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 #include "ldso/io/ply_file.h"
+#include "ldso/io/result_files.h"
 #include "ldso/io/trajectory_file.h"
 #include "report/report_page.h"
 #include "results/loop_pictures.h"
@@ -27,17 +28,6 @@ namespace fs = std::filesystem;
 constexpr const char* kOwnFolder = "give a folder of its own for the results";
 constexpr const char* kBetterCameraName = "camera_better.txt";
 
-std::vector<PlyPoint> ply_points(const std::vector<WorldPoint>& points) {
-  std::vector<PlyPoint> cloud;
-  cloud.reserve(points.size());
-  for (const WorldPoint& point : points) {
-    const Eigen::Vector3f p = point.position.cast<float>();
-    const auto intensity = static_cast<std::uint8_t>(std::lround(std::clamp(point.intensity, 0.0f, 255.0f)));
-    cloud.push_back({p.x(), p.y(), p.z(), intensity, point.idepth_stddev});
-  }
-  return cloud;
-}
-
 void write_picture(OutputFolder& out, const RunSummary& summary) {
   out.remove("trajectory.svg");
   if (!summary.evaluation.result) return;
@@ -52,7 +42,7 @@ void write_loop_files(OutputFolder& out, const RunSummary& summary) {
   for (const char* name : {"trajectory_odometry.txt", "map_odometry.ply", "loops.json"}) out.remove(name);
   if (!summary.settings.loops.enabled) return;
   write_tum_trajectory(out.file("trajectory_odometry.txt"), summary.odometry_trajectory);
-  write_ply(out.file("map_odometry.ply"), ply_points(summary.odometry_points));
+  write_ply(out.file("map_odometry.ply"), to_cloud(summary.odometry_points));
   write_file(out.file("loops.json"), json_text(loops_json(summary.run.result.loops), 2) + "\n");
 }
 
@@ -84,7 +74,7 @@ void write_segments(OutputFolder& out, const RunSummary& summary) {
     out.remove(map);
     if (i >= summary.segments.size()) continue;
     write_tum_trajectory(out.file(trajectory), summary.segments[i].trajectory);
-    write_ply(out.file(map), ply_points(summary.segments[i].points));
+    write_ply(out.file(map), to_cloud(summary.segments[i].points));
   }
 }
 
@@ -94,8 +84,8 @@ void write_cameras(OutputFolder& out, const RunSummary& summary) {
   const std::optional<FoundCamera>& found = summary.run.found_camera;
   const bool is_new = found ? found->doubt.empty() : summary.run.is_corrected;
   if (is_new) write_file(out.file(kCameraName), camera_file_text(summary.run.calibration));
-  if (summary.run.better_calibration)
-    write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.better_calibration));
+  if (summary.run.result.better_calibration)
+    write_file(out.file(kBetterCameraName), camera_file_text(*summary.run.result.better_calibration));
 }
 
 /// Writes results one after the other; one that cannot be written costs itself only.
@@ -184,7 +174,7 @@ std::vector<std::string> write_run_files(OutputFolder& out, const RunSummary& su
     out.remove("trajectory_kitti.txt");
     if (kitti) write_kitti_poses(out.file("trajectory_kitti.txt"), summary.trajectory);
   });
-  writer.write([&] { write_ply(out.file("map.ply"), ply_points(summary.points)); });
+  writer.write([&] { write_ply(out.file("map.ply"), to_cloud(summary.points)); });
   writer.write([&] { write_segments(out, summary); });
   writer.write([&] { write_loop_files(out, summary); });
   writer.write([&] { write_picture(out, summary); });

@@ -231,7 +231,7 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
     rows.push_back(camera_row(run.is_corrected ? "as given" : "calibration", given.camera));
   }
   if (run.is_corrected && !run.found_camera) rows.push_back(camera_row("as corrected", run.calibration.camera));
-  if (run.better_calibration) rows.push_back(camera_row("better", run.better_calibration->camera));
+  if (run.result.better_calibration) rows.push_back(camera_row("better", run.result.better_calibration->camera));
   const PinholeIntrinsics& rectified = run.result.camera;
   rows.push_back(camera_row("rectified, as estimated", {CameraModelKind::kPinhole,
                                                         rectified.width,
@@ -257,11 +257,13 @@ std::string camera_tables(const RunSummary& summary, const Dataset& dataset) {
                           "given one stands. Refused: " +
                               run.refused_correction + ".",
                           "note");
-  } else if (run.better_calibration) {
-    html += html::element("p",
-                          "The images contradict the calibration. A live run cannot begin anew and went on with it; "
-                          "camera_better.txt holds a better one for --calib next time.",
-                          "warning");
+  } else if (run.result.better_calibration) {
+    html +=
+        html::element("p",
+                      "The images contradict the calibration. Frames that come once cannot begin anew: the run went on "
+                      "with it; "
+                      "camera_better.txt holds a better one for --calib next time.",
+                      "warning");
   } else if (summary.settings.self_calibration.enabled) {
     html += html::element("p", "The images do not contradict the calibration.", "note");
   }

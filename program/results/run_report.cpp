@@ -12,6 +12,7 @@
 #include "io/settings/settings_json.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
+#include "ldso/io/result_files.h"
 #include "ldso/io/settings_file.h"
 #include "results/versions.h"
 #include "util/format_text.h"
@@ -36,13 +37,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Trajectory stamped(const std::vector<TimedPose>& poses) {
-  Trajectory trajectory;
-  trajectory.reserve(poses.size());
-  for (const TimedPose& pose : poses) trajectory.push_back({pose.timestamp, pose.T_world_camera});
-  return trajectory;
-}
-
 Json json_of(const PinholeIntrinsics& camera) {
   return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
           {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
@@ -59,6 +53,7 @@ Json self_calibration_json(const SequenceRun& run) {
           {"corrected", run.is_corrected},
           {"proof", run.proof},
           {"refused", run.refused_correction},
+          {"contradicted", run.result.better_calibration.has_value()},
           {"found", found_json(run)},
           {"camera",
            {{"model", model_name(camera.model)},
@@ -83,7 +78,7 @@ Json live_json(const SequenceRun& run) {
           {"longest_gap", run.live->longest_gap},
           {"mean_latency_ms", run.live->mean_latency_ms},
           {"worst_latency_ms", run.live->worst_latency_ms},
-          {"calibration_is_wrong", run.better_calibration.has_value()}};
+          {"calibration_is_wrong", run.result.better_calibration.has_value()}};
 }
 
 Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
@@ -246,20 +241,20 @@ std::string segment_name(const std::string& stem, std::size_t index, const std::
 void collect_results(RunSummary& summary) {
   const SlamResult& result = summary.run.result;
   const std::vector<TimedPose> poses = result.trajectory();
-  summary.trajectory = stamped(poses);
+  summary.trajectory = to_trajectory(poses);
   for (const TimedPose& pose : poses) summary.posed.push_back(pose.frame_id);
-  summary.keyframes = stamped(result.keyframe_trajectory());
+  summary.keyframes = to_trajectory(result.keyframe_trajectory());
   summary.points = result.points();
   const int parts = result.parts();
   for (int part = 1; part < parts; ++part) {
     RunSegment segment;
     const std::vector<TimedPose> of_part = result.trajectory(Correction::kLoops, part);
-    segment.trajectory = stamped(of_part);
+    segment.trajectory = to_trajectory(of_part);
     for (const TimedPose& pose : of_part) segment.posed.push_back(pose.frame_id);
     segment.points = result.points(Correction::kLoops, part);
     summary.segments.push_back(std::move(segment));
   }
-  summary.odometry_trajectory = stamped(result.trajectory(Correction::kNone));
+  summary.odometry_trajectory = to_trajectory(result.trajectory(Correction::kNone));
   summary.odometry_points = result.points(Correction::kNone);
 }
 

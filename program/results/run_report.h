@@ -10,8 +10,8 @@
 
 #include "evaluation/trajectory_evaluation.h"
 #include "ldso/io/dataset.h"
+#include "ldso/sequence_run.h"
 #include "ldso/settings.h"
-#include "running/sequence_runner.h"
 #include "viewer/live_run.h"
 
 namespace ldso {

@@ -9,11 +9,10 @@
 #include <thread>
 #include <utility>
 
-#include "running/checkpoint_clock.h"
-#include "running/ready_frame.h"
-#include "slam/calibration_watch.h"
+#include "sequence/checkpoint_clock.h"
+#include "sequence/ready_frame.h"
+#include "slam/single_pass_watch.h"
 #include "util/bounded_queue.h"
-#include "util/log.h"
 #include "util/out_of_memory.h"
 
 namespace ldso {
@@ -124,45 +123,10 @@ class Latency {
   int count_ = 0;
 };
 
-std::string describe_wrong_calibration(const Calibration& used, const Calibration& better) {
-  return "the images contradict the calibration: " + describe_change(used.camera, better.camera) +
-         "; a live run cannot begin anew and goes on with what it was given";
-}
-
-/// Looks at the calibration until enough frames have come or none comes any more; then says what is wrong with it.
-class LiveWatch {
- public:
-  LiveWatch(const SelfCalibrationSettings& settings, const Pipeline& pipeline, const LogSink& log, SequenceRun& run)
-      : significance_(settings.significance), log_(log), run_(run) {
-    if (settings.enabled) watch_.emplace(run.calibration, settings, pipeline);
-  }
-
-  void add(const FrameRecord& frame, Pipeline& pipeline) {
-    if (!watch_) return;
-    watch_->add(frame, pipeline);
-    if (watch_->is_over()) decide();
-  }
-
-  void decide() {
-    if (!watch_) return;
-    if (const CalibrationFindings findings = watch_->findings(); findings.deviations > significance_) {
-      run_.better_calibration = findings.better;
-      log_to(log_, LogLevel::kWarning, describe_wrong_calibration(run_.calibration, *run_.better_calibration));
-    }
-    watch_.reset();
-  }
-
- private:
-  double significance_;
-  const LogSink& log_;
-  SequenceRun& run_;
-  std::optional<CalibrationWatch> watch_;
-};
-
 /// Tracks what the reader gives; figures of the run go to `run`.
 void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream, const Settings& settings,
                const LogSink& log, const RunOptions& options, SequenceRun& run) {
-  LiveWatch watch(settings.self_calibration, pipeline, log, run);
+  SinglePassWatch watch(run.calibration, settings.self_calibration, pipeline, log);
   CheckpointClock checkpoints(options);
   Latency latency;
   while (true) {
@@ -183,7 +147,7 @@ void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream
     checkpoints.after_frame(pipeline, run);
     watch.add(frame, pipeline);
   }
-  watch.decide();
+  watch.decide(pipeline);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "running/test_scene_dataset.h"
+#include "sequence/test_scene_source.h"
 
 namespace ldso {
 namespace {
@@ -34,7 +34,7 @@ class ScriptedStream final : public FrameStream {
   RawFrame read() override { return scene_.read(next_ - 1); }
 
  private:
-  SceneDataset scene_;
+  SceneSource scene_;
   std::function<void(int)> before_;
   int next_ = 0;
 };
@@ -106,7 +106,7 @@ TEST(LiveRunner, DropsWhatComesTooFastAndCountsIt) {
 }
 
 TEST(LiveRunner, BadFramesAreSkippedAndAStopIsHeard) {
-  SceneDataset dataset(1000, 0.02);
+  SceneSource dataset(1000, 0.02);
   dataset.unreadable = 0;
   std::atomic<bool> stop{false};
   RunOptions options;
@@ -132,7 +132,7 @@ class BrokenStream final : public FrameStream {
   RawFrame read() override { return scene_.read(next_ - 1); }
 
  private:
-  SceneDataset scene_{10};
+  SceneSource scene_{10};
   Calibration calibration_ = scene_calibration();
   int next_ = 0;
 };
@@ -154,7 +154,7 @@ TEST(LiveRunner, GoesOnWithAWrongCalibrationAndKeepsTheBetterOne) {
     if (level == LogLevel::kWarning) warnings.push_back(text);
   });
   EXPECT_EQ(live.passes, 1);
-  ASSERT_TRUE(live.better_calibration);
+  ASSERT_TRUE(live.result.better_calibration);
   EXPECT_EQ(live.calibration.camera.fx, scene_calibration().camera.fx);
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                           [](const std::string& w) { return w.find("cannot begin anew") != w.npos; }),

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "ldso/log.h"
-#include "running/sequence_runner.h"
+#include "ldso/sequence_run.h"
 #include "terminal/progress_bar.h"
 
 namespace ldso {

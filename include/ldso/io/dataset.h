@@ -6,33 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "ldso/calibration.h"
+#include "ldso/frame_source.h"
 #include "ldso/io/trajectory_file.h"
-#include "ldso/raw_frame.h"
 
 namespace ldso {
 
-/// An image sequence with its calibration, whatever its format on disk.
-class Dataset {
+/// An image sequence with its calibration, whatever its format on disk. Errors of read() name the file.
+class Dataset : public FrameSource {
  public:
-  virtual ~Dataset() = default;
-  Dataset(const Dataset&) = delete;
-  Dataset& operator=(const Dataset&) = delete;
-
-  virtual int size() const = 0;
-  /// Decodes frame `index` in [0, size()). May be called from any thread, but from one at a time.
-  /// Throws Error naming the file if the frame is unreadable; other frames can still be read then.
-  virtual RawFrame read(int index) const = 0;
-  virtual double timestamp(int index) const = 0;  ///< [s]
-  virtual const Calibration& calibration() const = 0;
   /// Poses of this camera, if the sequence carries them; they need not be at the frames' times.
   virtual std::optional<Trajectory> ground_truth() const = 0;
   virtual std::string format_name() const = 0;
   /// What was odd about the sequence but could be worked around.
   virtual const std::vector<std::string>& warnings() const = 0;
-
- protected:
-  Dataset() = default;
 };
 
 struct DatasetOptions {
