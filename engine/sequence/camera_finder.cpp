@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "image/working_size.h"
 #include "sequence/camera_trials.h"
 #include "util/format_text.h"
 #include "util/log.h"
@@ -78,7 +79,9 @@ Calibration next_camera(const std::vector<CameraTrial>& trials, const CameraTria
 class Finder {
  public:
   Finder(const FrameSource& source, const Settings& settings, const LogSink& log, const std::atomic<bool>* stop)
-      : guess_(source.calibration()), log_(log), runs_(source, settings, stop) {}
+      : guess_(with_longest_side(source.calibration(), settings.longest_side)),
+        log_(log),
+        runs_(source, settings, stop) {}
 
   CameraFinding find() {
     int family = 0;
@@ -138,7 +141,7 @@ class Finder {
     return {};
   }
 
-  const Calibration& guess_;
+  Calibration guess_;
   const LogSink& log_;
   CameraTrials runs_;
   std::vector<CameraTrial> trials_;  ///< The best first.
