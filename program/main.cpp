@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
   ldso::add_eval_command(app);
   ldso::add_vocab_command(app);
   ldso::add_settings_command(app);
+  ldso::add_bench_command(app);
   ldso::add_simulate_command(app);
   ldso::add_experiment_command(app, exit_code);
   const auto arguments = ldso::without_experiment_shorthands({argv, argv + argc}, app);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "image/working_size.h"
 #include "sequence/camera_trials.h"
 #include "util/format_text.h"
 #include "util/log.h"
@@ -14,9 +15,12 @@ namespace {
 
 /// Of the longer side of the image, from a field of view of 115 to 35 degrees, the most usual first.
 constexpr std::array<double, 7> kFocalShares{0.88, 0.69, 1.13, 0.54, 1.5, 0.42, 0.32};
-/// Shorter ones are tried with this first coefficient as well: nearly straight lines are rare in wide lenses.
+/// Shorter ones are tried with barrel distortion as well: nearly straight lines are rare in wide lenses. The
+/// coefficient is such that it moves the corners by a share of their distance from the middle; a lens that folds the
+/// corners over would leave a part of the image alone, which is explained better than the whole.
 constexpr double kDistortedShare = 1.0;
-constexpr double kBarrel = -0.2;
+constexpr double kMostBarrel = -0.2;
+constexpr double kBarrelInCorner = -0.25;
 /// Around what the metadata say: videos show a part of what photos do.
 constexpr std::array<double, 3> kMetadataFactors{1, 1.2, 0.85};
 /// A wide-angle lens (FOV model).
@@ -45,6 +49,12 @@ Calibration with_distortion(Calibration camera, CameraModelKind model, double co
   return camera;
 }
 
+double barrel(const Calibration& calibration) {
+  const CameraCalibration& camera = calibration.camera;
+  const double corner = std::hypot(camera.cx, camera.cy) / camera.fx;
+  return std::max(kMostBarrel, kBarrelInCorner / (corner * corner));
+}
+
 /// The nearest one of the same family that the windows of `trial` point to and that points back; nothing if none does.
 const CameraTrial* opposite(const std::vector<CameraTrial>& trials, const CameraTrial& trial) {
   const CameraTrial* nearest = nullptr;
@@ -69,7 +79,9 @@ Calibration next_camera(const std::vector<CameraTrial>& trials, const CameraTria
 class Finder {
  public:
   Finder(const FrameSource& source, const Settings& settings, const LogSink& log, const std::atomic<bool>* stop)
-      : guess_(source.calibration()), log_(log), runs_(source, settings, stop) {}
+      : guess_(with_longest_side(source.calibration(), settings.longest_side)),
+        log_(log),
+        runs_(source, settings, stop) {}
 
   CameraFinding find() {
     int family = 0;
@@ -129,7 +141,7 @@ class Finder {
     return {};
   }
 
-  const Calibration& guess_;
+  Calibration guess_;
   const LogSink& log_;
   CameraTrials runs_;
   std::vector<CameraTrial> trials_;  ///< The best first.
@@ -147,7 +159,8 @@ std::vector<Calibration> possible_cameras(const Calibration& guess) {
   for (const double share : kFocalShares) {
     const Calibration straight = with_focal_length(guess, share * longer);
     cameras.push_back(straight);
-    if (share < kDistortedShare) cameras.push_back(with_distortion(straight, CameraModelKind::kRadTan, kBarrel));
+    if (share < kDistortedShare)
+      cameras.push_back(with_distortion(straight, CameraModelKind::kRadTan, barrel(straight)));
   }
   cameras.push_back(
       with_distortion(with_focal_length(guess, kWideFocalShare * longer), CameraModelKind::kFov, kWideOmega));

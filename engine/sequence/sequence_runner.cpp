@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "image/working_size.h"
 #include "ldso/error.h"
 #include "ldso/sequence_run.h"
 #include "sequence/camera_finder.h"
@@ -126,7 +127,7 @@ void log_next(const CalibrationSearch& search, const LogSink& log) {
 /// What the search begins with.
 CameraFinding first_calibration(const FrameSource& source, const Settings& settings, const LogSink& log,
                                 const RunOptions& options) {
-  if (!source.calibration().is_guess()) return {source.calibration(), {}};
+  if (!source.calibration().is_guess()) return {with_longest_side(source.calibration(), settings.longest_side), {}};
   if (!settings.self_calibration.enabled) {
     throw Error("calibration", "there is none of the camera",
                 "give one with --calib, or let self_calibration.enabled=true look for it");

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "image/grey_levels.h"
+#include "image/working_size.h"
 #include "ldso/error.h"
 #include "slam/pipeline.h"
 #include "slam/single_pass_watch.h"
@@ -60,7 +61,8 @@ const Calibration& known(const Calibration& calibration) {
 }  // namespace
 
 Slam::Slam(const Calibration& calibration, const Settings& settings, LogSink log, std::shared_ptr<RunObserver> observer)
-    : impl_(std::make_unique<Impl>(known(calibration), settings, std::move(log), std::move(observer))) {}
+    : impl_(std::make_unique<Impl>(with_longest_side(known(calibration), settings.longest_side), settings,
+                                   std::move(log), std::move(observer))) {}
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;

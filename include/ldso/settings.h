@@ -112,6 +112,7 @@ struct RevisionSettings {
 /// All settings. Defaults are the published ones unless measured better.
 struct Settings {
   int threads = 2;
+  int longest_side = 0;
   SelectionSettings selection;
   PhotometrySettings photometry;
   SelfCalibrationSettings self_calibration;
@@ -127,6 +128,9 @@ struct Settings {
     using S = Settings;
     return std::tuple{
         field("threads", &S::threads, "Worker threads; results do not depend on it.", in_range(1, 256)),
+        field("longest_side", &S::longest_side,
+              "Images whose longer side is more are scaled down to it; 0: they are used as the calibration says.",
+              in_range(0, 100000), in_unit("px")),
         field("selection", &S::selection, "Choice of the candidate points of a keyframe (LDSO III-B, DSO 3.2)."),
         field("photometry", &S::photometry, "How photometry is used (DSO 2.1)."),
         field("self_calibration", &S::self_calibration,

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/settings/presets.h"
 #include "io/settings/setting_text.h"
 #include "io/text/nearest_name.h"
 #include "io/text/text_file.h"
@@ -18,6 +19,8 @@
 
 namespace ldso {
 namespace {
+
+constexpr const char* kPresetKey = "preset";
 
 // Text to value; `where` is what a complaint begins with.
 
@@ -87,6 +90,7 @@ std::string last_word(const std::string& key) { return key.substr(key.rfind('.')
 /// Keys of all settings and of the groups that they are in.
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys = setting_keys();
+  keys.emplace_back(kPresetKey);
   std::set<std::string> groups;
   for (const std::string& key : keys) {
     for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1))
@@ -130,9 +134,20 @@ void read_group(const YamlNode& node, const std::string& prefix, Group& group) {
   if (!node.is_map()) throw Error(node.where(), "'" + prefix + "' is not a group", "settings are lines `name: value`");
   for (const auto& [name, entry] : node.entries()) {
     const std::string key = prefix + name;
+    if (key == kPresetKey) continue;
     const bool known = with_field(
         group, name, [&, &at = entry](auto& value, const SettingInfo& info) { read_field(at, key, info, value); });
     if (!known) reject_key(entry.where(), key);
+  }
+}
+
+/// The one that the file names counts before all else that it says.
+void read_preset(const YamlNode& node, Settings& settings) {
+  if (!node.is_map()) return;
+  for (const auto& [name, entry] : node.entries()) {
+    if (name != kPresetKey) continue;
+    if (!entry.is_scalar()) throw Error(entry.where(), "'preset' has no single value", "expected `preset: fast`");
+    apply_preset(entry.where(), entry.scalar(), settings);
   }
 }
 
@@ -170,6 +185,7 @@ void write_group(const Group& group, const std::string& indent, std::string& tex
 void read_settings(const std::filesystem::path& path, Settings& settings) {
   const YamlNode node = YamlNode::read(path, "the settings");
   Settings changed = settings;  // All or nothing.
+  read_preset(node, changed);
   if (!node.is_null()) read_group(node, "", changed);
   settings = changed;
 }
@@ -181,6 +197,7 @@ void write_settings(const std::filesystem::path& path, const Settings& settings)
 }
 
 void set_setting(Settings& settings, const std::string& key, const std::string& value) {
+  if (key == kPresetKey) return apply_preset("setting preset", value, settings);
   set_field(settings, "", key, value);
 }
 

@@ -41,6 +41,28 @@ TEST_F(SettingsFile, ChangesWhatItNamesOnly) {
   EXPECT_FALSE(settings.photometry.use_vignette);
 }
 
+TEST_F(SettingsFile, APresetCountsBeforeTheRest) {
+  const Settings settings = read("window: {iterations: 9}\npreset: fast\n");
+  EXPECT_EQ(settings.longest_side, 424);
+  EXPECT_EQ(settings.selection.candidates, 800);
+  EXPECT_EQ(settings.window.iterations, 9);
+  EXPECT_EQ(settings_to_json(read("preset: default\n")), settings_to_json({}));
+  EXPECT_NE(
+      error("threads: 1\npreset: faster\n").find("s.yaml:2: there is no preset 'faster'; there are: default, fast"),
+      std::string::npos)
+      << error("threads: 1\npreset: faster\n");
+  EXPECT_NE(error("preset: [fast]\n").find("has no single value"), std::string::npos);
+}
+
+TEST_F(SettingsFile, PresetsAreSettingsOfTheCommandLine) {
+  Settings settings;
+  set_setting(settings, "preset", "fast");
+  EXPECT_EQ(settings.window.active_points, 800);
+  set_setting(settings, "window.active_points", "900");
+  EXPECT_EQ(settings.window.active_points, 900);
+  EXPECT_THROW(set_setting(settings, "preset", "slow"), Error);
+}
+
 TEST_F(SettingsFile, EmptyFileChangesNothing) {
   EXPECT_EQ(settings_to_json(read("# nothing\n")), settings_to_json({}));
 }

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/settings/presets.h"
 #include "io/settings/setting_text.h"
 #include "settings/setting_range.h"
 
@@ -86,6 +87,25 @@ change. Where the default is from: a paper (DSO is Engel et al., PAMI 2018; LDSO
 by comparing results over sequences, or *chosen* by judgement. Defaults and ranges are in the unit of the range.
 )";
 
+std::string presets_markdown() {
+  std::string text =
+      "\n`--set preset=NAME` (in a file `preset: NAME`) sets several at once; what is set after it, or beside it in a "
+      "file,\nholds in its stead.\n\n| preset | | settings |\n|---|---|---|\n";
+  for (const Preset& preset : presets()) {
+    text += "| `" + std::string(preset.name) + "` | " + std::string(preset.help) + " |";
+    for (const auto& [key, value] : preset.settings) text += " `" + key + "=" + value + "`";
+    text += " |\n";
+  }
+  return text;
+}
+
+std::string presets_table() {
+  std::string text = "\npreset: several settings at once\n";
+  for (const Preset& preset : presets())
+    text += "  " + padded(std::string(preset.name), 8) + "  " + std::string(preset.help) + "\n";
+  return text;
+}
+
 constexpr const char* kTableHead = "\n| setting | default | allowed | source | |\n|---|---|---|---|---|\n";
 
 }  // namespace
@@ -116,11 +136,12 @@ std::string settings_table(bool expert) {
               padded(row.allowed, allowed_width) + "  " + row.sentence + "\n";
     }
   }
-  return text;
+  return text + presets_table();
 }
 
 std::string settings_markdown() {
   std::string text = kMarkdownHead;
+  text += presets_markdown();
   text += kTableHead;
   for (const SettingRow& row : setting_rows()) {
     if (row.default_text.empty()) {

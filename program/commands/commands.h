@@ -27,6 +27,8 @@ void add_eval_command(CLI::App& app);
 void add_vocab_command(CLI::App& app);
 /// `ldso settings`: all settings with defaults, ranges and what they are.
 void add_settings_command(CLI::App& app);
+/// `ldso bench`: how many frames a second this machine does, in one line.
+void add_bench_command(CLI::App& app);
 /// `ldso simulate WORLD -o DIR`: renders a sequence with exact ground truth.
 void add_simulate_command(CLI::App& app);
 

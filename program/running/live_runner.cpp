@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "image/working_size.h"
 #include "sequence/checkpoint_clock.h"
 #include "sequence/ready_frame.h"
 #include "slam/single_pass_watch.h"
@@ -154,7 +155,7 @@ void track_all(LiveReader& reader, Pipeline& pipeline, const FrameStream& stream
 
 SequenceRun run_live(FrameStream& stream, const Settings& settings, const LogSink& log, const RunOptions& options) {
   SequenceRun run;
-  run.calibration = stream.calibration();
+  run.calibration = with_longest_side(stream.calibration(), settings.longest_side);
   run.live.emplace();
   Pipeline pipeline(run.calibration, settings, log, options.observer);
   const Clock::time_point start = Clock::now();
