@@ -21,10 +21,11 @@
 namespace ldso {
 
 struct ResultsFolderOptions {
-  std::string name;                ///< Of what was run, for the viewer and the report.
-  LogSink log;                     ///< Hears what log() hears.
-  std::filesystem::path sequence;  ///< Where the images are, and how they were played: `ldso export` reads them again.
-  DatasetOptions dataset_options;
+  std::string name = {};  ///< Of what was run, for the viewer and the report.
+  LogSink log = {};       ///< Hears what log() hears.
+  /// Where the images are, and how they were played: `ldso export` reads them again.
+  std::filesystem::path sequence = {};
+  DatasetOptions dataset_options = {};
   bool kitti = false;          ///< Also trajectory_kitti.txt.
   bool loop_pictures = false;  ///< Also loops/*.png, if there is a dataset.
   bool report = true;          ///< report.html.

@@ -31,9 +31,9 @@ struct RunProgress {
 struct SequenceRun;
 
 struct RunOptions {
-  std::function<void(const RunProgress&)> progress;  ///< After each frame, on the calling thread.
-  const std::atomic<bool>* stop = nullptr;           ///< Once true, the run ends after the frame it is at.
-  std::shared_ptr<RunObserver> observer = nullptr;   ///< Hears of everything while it happens.
+  std::function<void(const RunProgress&)> progress = {};  ///< After each frame, on the calling thread.
+  const std::atomic<bool>* stop = nullptr;                ///< Once true, the run ends after the frame it is at.
+  std::shared_ptr<RunObserver> observer = nullptr;        ///< Hears of everything while it happens.
   /// What has been computed so far, as if the run had been stopped there; on the calling thread, which it holds up.
   std::function<void(SequenceRun)> checkpoint = nullptr;
   double checkpoint_interval_s = 20;  ///< From one to the next, at least.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "camera/frame_stream.h"
+#include "ldso/io/dataset.h"
 
 namespace ldso {
 

@@ -10,7 +10,7 @@
 
 #include "image/frame.h"
 #include "ldso/calibration.h"
-#include "ldso/io/dataset.h"
+#include "ldso/frame_source.h"
 
 namespace ldso {
 
@@ -40,7 +40,7 @@ class FrameStream {
   FrameStream() = default;
 };
 
-/// Plays a sequence at its own pace, by its timestamps, from the first call of wait() on. The dataset must outlive it.
-std::unique_ptr<FrameStream> make_paced_stream(const Dataset& dataset);
+/// Plays a sequence at its own pace, by its timestamps, from the first call of wait() on. The source must outlive it.
+std::unique_ptr<FrameStream> make_paced_stream(const FrameSource& source);
 
 }  // namespace ldso

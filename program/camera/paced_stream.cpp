@@ -16,11 +16,11 @@ constexpr std::chrono::milliseconds kPatience(50);
 
 class PacedStream final : public FrameStream {
  public:
-  explicit PacedStream(const Dataset& dataset) : dataset_(dataset) {}
+  explicit PacedStream(const FrameSource& source) : source_(source) {}
 
-  const Calibration& calibration() const override { return dataset_.calibration(); }
-  int size() const override { return dataset_.size(); }
-  RawFrame read() override { return dataset_.read(index_); }
+  const Calibration& calibration() const override { return source_.calibration(); }
+  int size() const override { return source_.size(); }
+  RawFrame read() override { return source_.read(index_); }
 
   std::optional<Arrival> wait(const std::function<bool()>& is_over) override {
     if (index_ < 0) start_ = Clock::now();
@@ -34,17 +34,17 @@ class PacedStream final : public FrameStream {
       never_.wait_until(lock, std::min(due(index_), Clock::now() + kPatience));
     }
     if (is_over()) return std::nullopt;
-    return Arrival{index_, dataset_.timestamp(index_)};
+    return Arrival{index_, source_.timestamp(index_)};
   }
 
  private:
   /// Played in reverse the times decrease; what counts is how far apart they are.
   Clock::time_point due(int index) const {
-    const double seconds = std::abs(dataset_.timestamp(index) - dataset_.timestamp(0));
+    const double seconds = std::abs(source_.timestamp(index) - source_.timestamp(0));
     return start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   }
 
-  const Dataset& dataset_;
+  const FrameSource& source_;
   Clock::time_point start_;
   int index_ = -1;
   std::mutex mutex_;
@@ -53,8 +53,8 @@ class PacedStream final : public FrameStream {
 
 }  // namespace
 
-std::unique_ptr<FrameStream> make_paced_stream(const Dataset& dataset) {
-  return std::make_unique<PacedStream>(dataset);
+std::unique_ptr<FrameStream> make_paced_stream(const FrameSource& source) {
+  return std::make_unique<PacedStream>(source);
 }
 
 }  // namespace ldso

@@ -13,15 +13,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Frames 40 ms apart.
-class TickingDataset final : public Dataset {
+class TickingFrames final : public FrameSource {
  public:
-  explicit TickingDataset(int size, double step = 0.04) : size_(size), step_(step) {}
+  explicit TickingFrames(int size, double step = 0.04) : size_(size), step_(step) {}
   int size() const override { return size_; }
   double timestamp(int index) const override { return 100 + step_ * index; }
   const Calibration& calibration() const override { return calibration_; }
-  std::optional<Trajectory> ground_truth() const override { return std::nullopt; }
-  std::string format_name() const override { return "ticking"; }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
   RawFrame read(int index) const override {
     RawFrame frame;
     frame.id = index;
@@ -32,7 +29,6 @@ class TickingDataset final : public Dataset {
   int size_;
   double step_;
   Calibration calibration_;
-  std::vector<std::string> warnings_;
 };
 
 bool never() { return false; }
@@ -47,14 +43,14 @@ void pass_time(double seconds) {
 
 TEST(PacedStream, NoFrameComesBeforeItsTime) {
   for (const double step : {0.04, -0.04}) {  // -: in reverse
-    const TickingDataset dataset(6, step);
-    const auto stream = make_paced_stream(dataset);
+    const TickingFrames frames(6, step);
+    const auto stream = make_paced_stream(frames);
     const Clock::time_point start = Clock::now();
     std::int64_t last = -1;
     while (const auto arrival = stream->wait(never)) {
       EXPECT_GT(arrival->index, last);
       last = arrival->index;
-      EXPECT_EQ(arrival->timestamp, dataset.timestamp(static_cast<int>(last)));
+      EXPECT_EQ(arrival->timestamp, frames.timestamp(static_cast<int>(last)));
       EXPECT_GE(seconds_since(start), 0.04 * static_cast<double>(last) - 0.001);
       EXPECT_EQ(stream->read().id, last);
     }
@@ -64,8 +60,8 @@ TEST(PacedStream, NoFrameComesBeforeItsTime) {
 }
 
 TEST(PacedStream, FramesThatNobodyWaitedForAreMissed) {
-  const TickingDataset dataset(3000);
-  const auto stream = make_paced_stream(dataset);
+  const TickingFrames frames(3000);
+  const auto stream = make_paced_stream(frames);
   EXPECT_EQ(stream->wait(never)->index, 0);
   pass_time(0.3);
   const std::int64_t next = stream->wait(never)->index;
@@ -74,8 +70,8 @@ TEST(PacedStream, FramesThatNobodyWaitedForAreMissed) {
 }
 
 TEST(PacedStream, WaitingEndsSoonOnceItIsOver) {
-  const TickingDataset dataset(3, 60);
-  const auto stream = make_paced_stream(dataset);
+  const TickingFrames frames(3, 60);
+  const auto stream = make_paced_stream(frames);
   const Clock::time_point start = Clock::now();
   EXPECT_TRUE(stream->wait(never));
   EXPECT_FALSE(stream->wait([&] { return seconds_since(start) > 0.1; }));
