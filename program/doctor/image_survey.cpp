@@ -14,8 +14,10 @@ constexpr int kFirst = 90;
 constexpr int kStretches = 40;
 constexpr int kStretchLength = 4;
 
-/// Beginning with the first frame, each of so many is taken for what stays in the image.
+/// Beginning with the first frame, each of so many is taken for what stays in the image: of long sequences each of 30,
+/// but no more than each of 10, since edges of a scene stay for some frames as well.
 constexpr int kStillEvery = 30;
+constexpr int kStillLeast = 10;
 
 std::optional<RawFrame> read_frame(const Dataset& dataset, int index, ImageSurvey& survey) {
   try {
@@ -56,7 +58,7 @@ ImageSurvey survey_images(const Dataset& dataset, const std::function<void(int, 
       survey.frames.push_back(measure_frame(frame->grey.view()));
       survey.frames.back().index = indices[i];
       if (frame->exposure_ms) ++survey.exposures_known;
-      if (indices[i] >= last_still + std::min(kStillEvery, std::max(1, dataset.size() / kStretches))) {
+      if (indices[i] >= last_still + std::clamp(dataset.size() / kStretches, kStillLeast, kStillEvery)) {
         survey.still.add(frame->grey.view());
         last_still = indices[i];
       }
