@@ -203,8 +203,32 @@ std::string stage_table(const RunSummary& summary) {
                        "note");
 }
 
+/// Maps that nothing joined to the one that is shown.
+std::string segment_table(const RunSummary& summary) {
+  if (summary.segments.empty()) return "";
+  Rows rows;
+  for (std::size_t i = 0; i < summary.segments.size(); ++i) {
+    const RunSegment& segment = summary.segments[i];
+    const auto frame = [&](bool last) {
+      return segment.posed.empty() ? std::string("–")
+                                   : std::to_string(last ? segment.posed.back() : segment.posed.front());
+    };
+    rows.push_back({{frame(false)},
+                    {frame(true)},
+                    {std::to_string(segment.posed.size())},
+                    {std::to_string(segment.points.size())},
+                    {segment_name("trajectory", i, ".txt") + ", " + segment_name("map", i, ".ply")}});
+  }
+  return html::element("h3", "Maps of their own") +
+         html::table({"first frame", "last frame", "frames with a pose", "points", "files"}, rows, {4}) +
+         html::element("p",
+                       "After the camera was lost a new map was begun, and no place was recognized that both show: "
+                       "each has coordinates and a unit of its own.",
+                       "note");
+}
+
 std::string warning_lists(const RunSummary& summary) {
-  return untracked_table(summary) + warning_list(summary.warnings);
+  return untracked_table(summary) + segment_table(summary) + warning_list(summary.warnings);
 }
 
 std::string found_camera_note(const FoundCamera& found) {
