@@ -36,7 +36,7 @@ goes_on_without() {  # frame, pattern of the warning
 case $CASE in
   missing_camera)
     rm "$damaged/camera.txt"
-    refused 'there is no calibration' --set self_calibration.enabled=false
+    refused 'calibration: there is none of the camera' --set self_calibration.enabled=false
     refused 'a live run cannot look for it' --live
     ;;
   short_camera)
