@@ -60,16 +60,18 @@ ROOMS = {
     # program
     "camera": ["io/datasets"],
     "running": ["sequence", "camera"],
+    "doctor": ["sequence", "io/datasets"],
     "viewer/map": ["io/datasets"],
     "viewer/recording": ["viewer/map"],
     "viewer/server": ["viewer/map"],
     "viewer": ["viewer/recording", "viewer/server"],
-    "terminal": ["running"],
-    "results": ["running", "viewer", "evaluation", "io/settings"],
+    "scaling": ["slam", "io/datasets"],
+    "terminal": ["running", "scaling"],
+    "results": ["running", "scaling", "viewer", "evaluation", "io/settings"],
     "report": ["results"],
     "output": ["report", "experiment/jobs"],
     "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
-    "commands": ["commands/experiment"],
+    "commands": ["commands/experiment", "doctor"],
     "": ["commands"],  # program/main.cpp
     # c
     "interface": ["sequence", "io/datasets", "io/settings"],
@@ -79,10 +81,11 @@ ROOMS = {
 
 # Libraries that stay inside rooms.
 LIBRARIES = {
-    r"opencv2/": {"io", "camera", "place", ""},
+    r"opencv2/": {"io", "camera", "doctor", "place", ""},
     r"zip\.h": {"io", "simulation"},
     r"yaml-cpp/": {"io", "simulation"},
-    r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "viewer"},
+    r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "doctor",
+                    "viewer"},
     r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},
     r"pybind11/": {"bindings"},

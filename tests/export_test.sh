@@ -68,6 +68,22 @@ grep -q '^1 OPENCV ' "$WORK/original/colmap/sparse/0/cameras.txt" || fail "the o
 image=$(find "$WORK/original/colmap/images" -type f | sort | sed -n 1p)
 cmp "$image" "$SEQUENCE/images/$(basename "$image")" || fail "the original image is another one"
 
+# The camera in the formats of other programs, each of which can be given as a calibration again.
+expect_exit 0 export "$out" --format kalibr,ros,opencv,colmap-camera,basalt,nerfstudio -o "$WORK/cameras"
+for file in camchain.yaml camera_info.yaml camera.yaml cameras.txt calibration.json transforms.json; do
+  expect_exit 2 run "$SEQUENCE" -o "$WORK/again" --quiet --end 3 --no-report --calib "$WORK/cameras/$file"
+  for number in fx fy cx cy; do
+    expect_true "$file has the $number of the run" \
+      "abs($(json "$WORK/again/run.json" "['self_calibration']['camera']['$number']") - $(json "$out/run.json" "['self_calibration']['camera']['$number']")) < 1e-6"
+  done
+done
+expect_exit 0 export "$WORK/cameras/camchain.yaml:cam0" --format opencv -o "$WORK/converted"
+cmp "$WORK/cameras/camera.yaml" "$WORK/converted/camera.yaml" || fail "a converted calibration is another one"
+expect_exit 1 export "$WORK/cameras/camchain.yaml:1" --format opencv -o "$WORK/converted"
+expect_output 'there is no camera 1'
+expect_exit 1 export "$WORK/cameras/camchain.yaml" --format ply -o "$WORK/converted"
+expect_output 'of a file only calibrations can be made'
+
 expect_exit 1 export "$WORK/nothing" --format ply
 expect_output 'there is no finished run'
 expect_exit 1 export "$out" --format obj

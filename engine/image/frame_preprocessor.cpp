@@ -13,6 +13,15 @@ namespace {
 
 std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
+/// What is masked, by a grey level below zero, carries no information, and no trace of what it shows stays.
+void mark_masked(ImageView<const float> grey, ImageView<float> image) {
+  for (int y = 0; y < image.height; ++y) {
+    const float* row = grey.row(y);
+    float* marked = image.row(y);
+    for (int x = 0; x < image.width; ++x) marked[x] = row[x] < 0 ? mark_invalid(0) : marked[x];
+  }
+}
+
 }  // namespace
 
 FramePreprocessor::FramePreprocessor(const Calibration& calibration, const PhotometrySettings& settings)
@@ -27,6 +36,7 @@ PreparedFrame FramePreprocessor::process(const RawFrame& raw) const {
   check_size("frame " + std::to_string(raw.id) + name, raw.grey.width(), raw.grey.height());
   MaskedImage image(width_, height_);
   photometric_.apply(raw.grey.view(), image.view());
+  mark_masked(raw.grey.view(), image.view());
   if (!rectifier_.is_identity()) {
     MaskedImage rectified(output_camera().width, output_camera().height);
     rectifier_.apply(image.view(), rectified.view());

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,6 +50,23 @@ RawFrame raw_frame(int width, int height) {
       raw.grey(x, y) = static_cast<float>(std::lround(100 + 50 * std::sin(0.1 * x + 0.07 * y)));
   }
   return raw;
+}
+
+TEST(FramePreprocessor, NothingStaysOfWhatIsMasked) {
+  const FramePreprocessor preprocessor(pinhole_calibration(320, 240), {});
+  RawFrame raw = raw_frame(320, 240), other = raw_frame(320, 240);
+  for (int y = 100; y < 140; ++y) {
+    for (int x = 50; x < 90; ++x) {
+      raw.grey(x, y) = -1;
+      other.grey(x, y) = -1.F - static_cast<float>((31 * x + 17 * y) % 200);
+    }
+  }
+  const PreparedFrame frame = preprocessor.process(raw);
+  const Image<Texel>& level = frame.pyramid.levels[0];
+  EXPECT_EQ(level(60, 110).valid, 0);
+  EXPECT_EQ(level(49, 110).valid, 0);  // Its gradient looks into the mask.
+  EXPECT_EQ(level(48, 110).valid, 1);
+  EXPECT_TRUE(same_image(frame, preprocessor.process(other)));
 }
 
 TEST(FramePreprocessor, PassesAnUncalibratedPinholeFrameThrough) {

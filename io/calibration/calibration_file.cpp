@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "io/calibration/calibration_doubts.h"
+#include "io/calibration/camera_choice.h"
 #include "io/calibration/foreign_calibration.h"
 #include "io/calibration/lens.h"
 #include "io/images/image_file.h"
@@ -239,7 +240,9 @@ std::string describe(const CameraCalibration& camera, const Rectification& recti
 }
 
 Calibration read_camera_calibration(const std::filesystem::path& path) {
-  if (auto foreign = read_foreign_calibration(path)) return *std::move(foreign);
+  const CameraChoice choice = choose_camera(path);
+  if (auto foreign = read_foreign_calibration(choice.file, choice.camera)) return *std::move(foreign);
+  if (choice.camera) throw Error(path.string(), "a camera.txt holds one camera", "give " + choice.file.string());
   const TextFile file(path);
   if (file.lines().size() < 4) {
     throw Error(path.string(), "has " + std::to_string(file.lines().size()) + " lines, four are expected",

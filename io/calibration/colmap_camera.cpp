@@ -45,9 +45,11 @@ bool is_colmap_cameras(const std::filesystem::path& path) {
   return !file.lines().empty() && is_camera_line(file.lines().front());
 }
 
-ForeignCamera read_colmap_camera(const std::filesystem::path& path) {
+ForeignCamera read_colmap_camera(const std::filesystem::path& path, int camera) {
   const TextFile file(path);
-  const TextLine& line = file.lines().front();
+  check_camera(camera, static_cast<int>(file.lines().size()), path.string());
+  const TextLine& line = file.lines()[static_cast<std::size_t>(camera)];
+  if (!is_camera_line(line)) file.fail(line, "is no camera", "expected `CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]`");
   const std::string& name = line.fields[1];
   const auto lens = std::find_if(kColmapLenses.begin(), kColmapLenses.end(),
                                  [&](const ColmapLens& known) { return name == known.name; });

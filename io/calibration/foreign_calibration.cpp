@@ -37,22 +37,28 @@ Kind kind_of(const fs::path& path) {
   return is_kitti_calibration(path) ? Kind::kKitti : Kind::kNone;
 }
 
-ForeignCamera read_camera_of(const fs::path& path, Kind kind) {
+ForeignCamera read_camera_of(const fs::path& path, Kind kind, int camera) {
   switch (kind) {
     case Kind::kYaml:
-      return read_yaml_camera(path);
+      return read_yaml_camera(path, camera);
     case Kind::kXml:
-      return read_xml_camera(path);
+      return read_xml_camera(path, camera);
     case Kind::kJson:
-      return read_json_camera(path);
+      return read_json_camera(path, camera);
     case Kind::kColmap:
-      return read_colmap_camera(path);
+      return read_colmap_camera(path, camera);
     default:
-      return read_kitti_camera(path);
+      return read_kitti_camera(path, camera);
   }
 }
 
 }  // namespace
+
+void check_camera(int camera, int cameras, const std::string& where) {
+  if (camera >= 0 && camera < cameras) return;
+  throw Error(where, "there is no camera " + std::to_string(camera),
+              cameras == 1 ? "the file holds one, 0" : "its cameras are 0 to " + std::to_string(cameras - 1));
+}
 
 void set_size(CameraCalibration& camera, double width, double height, const std::string& where) {
   const auto is_side = [](double side) {
@@ -75,19 +81,20 @@ void set_intrinsics(CameraCalibration& camera, double fx, double fy, double cx, 
   camera.cy = cy;
 }
 
-std::optional<Calibration> read_foreign_calibration(const fs::path& path) {
+std::optional<Calibration> read_foreign_calibration(const fs::path& path, std::optional<int> camera) {
   const Kind kind = kind_of(path);
   if (kind == Kind::kNone) return std::nullopt;
-  const ForeignCamera foreign = read_camera_of(path, kind);
+  const ForeignCamera foreign = read_camera_of(path, kind, camera.value_or(0));
   Calibration calibration;
   calibration.camera = foreign.camera;
   const bool pinhole = foreign.camera.model == CameraModelKind::kPinhole;
   calibration.rectification.mode = pinhole ? RectificationMode::kNone : RectificationMode::kCrop;
   calibration.description =
       path.string() + ": " + foreign.kind + ", " + describe(foreign.camera, calibration.rectification);
-  if (foreign.cameras > 1) {
+  if (foreign.cameras > 1 && !camera) {
     calibration.warnings.push_back(path.string() + ": of " + std::to_string(foreign.cameras) +
-                                   " cameras the first is taken (" + foreign.kind + ")");
+                                   " cameras the first is taken (" + foreign.kind + "); " + path.filename().string() +
+                                   ":1 is the second");
   }
   doubt_intrinsics(foreign.camera, foreign.where, calibration.warnings);
   return calibration;

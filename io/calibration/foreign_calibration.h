@@ -13,7 +13,9 @@ namespace ldso {
 
 /// Nothing if the file is none of these, as far as can be seen. Throws Error naming the file, and the line where
 /// there is one, if it is one of them but cannot be used. Of several cameras the first is taken, with a warning.
-std::optional<Calibration> read_foreign_calibration(const std::filesystem::path& path);
+/// `camera` is another one, counted from 0.
+std::optional<Calibration> read_foreign_calibration(const std::filesystem::path& path,
+                                                    std::optional<int> camera = std::nullopt);
 
 /// camera.txt in `folder`, or else a file by one of the names that other programs give; camera.txt if there is none.
 std::filesystem::path find_calibration(const std::filesystem::path& folder);

@@ -181,6 +181,34 @@ TEST_F(ForeignCalibration, OfKittisRawData) {
   EXPECT_EQ(raw.camera.height, 375);
 }
 
+TEST_F(ForeignCalibration, OneOfSeveralCamerasCanBeChosen) {
+  const auto cam = [](int focal) {
+    return "  camera_model: pinhole\n  intrinsics: [" + std::to_string(focal) +
+           ", 457, 367, 248]\n  resolution: [752, 480]\n";
+  };
+  write_text(folder_ / "camchain.yaml", "cam0:\n" + cam(450) + "cam1:\n" + cam(460));
+  write_text(folder_ / "cameras.txt", "1 PINHOLE 640 480 525 526 320 240\n7 PINHOLE 640 480 535 536 320 240\n");
+  const auto focal = [&](const char* name) { return read_camera_calibration(folder_ / name).camera.fx; };
+  EXPECT_EQ(focal("camchain.yaml"), 450);
+  EXPECT_EQ(focal("camchain.yaml:cam0"), 450);
+  EXPECT_EQ(focal("camchain.yaml:cam1"), 460);
+  EXPECT_EQ(focal("camchain.yaml:1"), 460);
+  EXPECT_EQ(focal("cameras.txt:1"), 535);
+  EXPECT_TRUE(read_camera_calibration(folder_ / "camchain.yaml:1").warnings.empty());
+  EXPECT_NE(error_of([&] { focal("camchain.yaml:2"); }).find("there is no camera 2; its cameras are 0 to 1"),
+            std::string::npos);
+  write_text(folder_ / "camera.txt", kTestCamera);
+  EXPECT_NE(error_of([&] { focal("camera.txt:1"); }).find("holds one camera"), std::string::npos);
+  write_text(folder_ / "odd:1", kTestCamera);
+  EXPECT_EQ(focal("odd:1"), 40);
+
+  make_image_folder(folder_ / "sequence", 2);
+  write_text(folder_ / "two.txt", "1 PINHOLE 32 24 40 41 16 12\n2 PINHOLE 32 24 50 51 16 12\n");
+  DatasetOptions options;
+  options.calibration_file = folder_ / "two.txt:1";
+  EXPECT_EQ(open_dataset(folder_ / "sequence", options)->calibration().camera.fx, 50);
+}
+
 TEST_F(ForeignCalibration, ThatCannotBeUsedIsAnErrorThatNamesIt) {
   const auto expect = [&](const std::string& name, const std::string& text, const std::string& complaint) {
     const std::string message = error(name, text);

@@ -31,16 +31,17 @@ std::vector<const char*> names_of_basalt(const std::string& type) {
   return {};
 }
 
-ForeignCamera read_basalt(const Json& json, const std::string& where) {
+ForeignCamera read_basalt(const Json& json, int camera, const std::string& where) {
   const Json& cameras = json.at("intrinsics");
-  const Json& first = cameras.at(0);
-  const auto type = first.at("camera_type").get<std::string>();
-  const Json& values = first.at("intrinsics");
+  check_camera(camera, static_cast<int>(cameras.size()), where);
+  const Json& chosen = cameras.at(static_cast<std::size_t>(camera));
+  const auto type = chosen.at("camera_type").get<std::string>();
+  const Json& values = chosen.at("intrinsics");
   ForeignCamera result;
   result.kind = "Basalt, " + type;
   result.where = where;
   result.cameras = static_cast<int>(cameras.size());
-  const Json& size = json.at("resolution").at(0);
+  const Json& size = json.at("resolution").at(static_cast<std::size_t>(camera));
   set_size(result.camera, size.at(0).get<double>(), size.at(1).get<double>(), where);
   set_intrinsics(result.camera, values.at("fx"), values.at("fy"), values.at("cx"), values.at("cy"), where);
   set_lens(result.camera, type, coefficients_of(values, names_of_basalt(type)), where);
@@ -71,9 +72,10 @@ ForeignCamera read_transforms(const Json& json, const std::string& where) {
   return result;
 }
 
-ForeignCamera read_known(const Json& json, const std::string& where) {
-  if (json.contains("value0")) return read_basalt(json.at("value0"), where);
-  if (json.contains("intrinsics")) return read_basalt(json, where);
+ForeignCamera read_known(const Json& json, int camera, const std::string& where) {
+  if (json.contains("value0")) return read_basalt(json.at("value0"), camera, where);
+  if (json.contains("intrinsics")) return read_basalt(json, camera, where);
+  check_camera(camera, 1, where);
   if (json.contains("fl_x") || json.contains("camera_angle_x")) return read_transforms(json, where);
   throw Error(where, "is no calibration of a known kind",
               "Basalt's calibration and nerfstudio's transforms.json with fl_x for all images are known");
@@ -81,9 +83,9 @@ ForeignCamera read_known(const Json& json, const std::string& where) {
 
 }  // namespace
 
-ForeignCamera read_json_camera(const std::filesystem::path& path) {
+ForeignCamera read_json_camera(const std::filesystem::path& path, int camera) {
   try {
-    return read_known(parse_json<Json>(read_text(path), path.string()), path.string());
+    return read_known(parse_json<Json>(read_text(path), path.string()), camera, path.string());
   } catch (const Json::exception& error) {
     throw Error(path.string(), std::string("is damaged or lacks a value (") + error.what() + ")",
                 "Basalt's calibration and nerfstudio's transforms.json are known");

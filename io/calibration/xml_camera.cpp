@@ -51,7 +51,8 @@ std::vector<double> numbers_of_any(std::string_view text, const std::vector<std:
 
 }  // namespace
 
-ForeignCamera read_xml_camera(const std::filesystem::path& path) {
+ForeignCamera read_xml_camera(const std::filesystem::path& path, int camera) {
+  check_camera(camera, 1, path.string());
   const std::string text = read_text(path);
   ForeignCamera result;
   result.kind = "OpenCV FileStorage";

@@ -17,10 +17,14 @@ ForeignCamera begin_camera(const YamlNode& node, std::string kind) {
 }
 
 /// `intrinsics` of Kalibr: those of the lens stand before the four of the pinhole.
-ForeignCamera read_kalibr(const YamlNode& chain) {
-  ForeignCamera result = begin_camera(chain.at("cam0"), "Kalibr camchain, cam0");
-  while (chain.contains("cam" + std::to_string(result.cameras))) ++result.cameras;
-  const YamlNode cam = chain.at("cam0");
+ForeignCamera read_kalibr(const YamlNode& chain, int camera) {
+  int cameras = 1;
+  while (chain.contains("cam" + std::to_string(cameras))) ++cameras;
+  check_camera(camera, cameras, chain.where());
+  const std::string name = "cam" + std::to_string(camera);
+  const YamlNode cam = chain.at(name);
+  ForeignCamera result = begin_camera(cam, "Kalibr camchain, " + name);
+  result.cameras = cameras;
   const std::string model = to_lower(cam.at("camera_model").scalar());
   const std::string distortion = cam.contains("distortion_model") ? cam.at("distortion_model").scalar() : "none";
   const std::size_t own = model == "ds" || model == "eucm" ? 2 : model == "omni" ? 1 : 0;
@@ -145,9 +149,10 @@ ForeignCamera read_orb_slam(const YamlNode& yaml, const std::string& prefix) {
 
 }  // namespace
 
-ForeignCamera read_yaml_camera(const std::filesystem::path& path) {
+ForeignCamera read_yaml_camera(const std::filesystem::path& path, int camera) {
   const YamlNode yaml = YamlNode::read(path, path.filename().string());
-  if (yaml.contains("cam0")) return read_kalibr(yaml);
+  if (yaml.contains("cam0")) return read_kalibr(yaml, camera);
+  check_camera(camera, 1, path.string());
   for (const std::string prefix : {"Camera1.", "Camera."}) {
     if (yaml.contains(prefix + "fx")) return read_orb_slam(yaml, prefix);
   }

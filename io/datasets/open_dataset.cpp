@@ -10,6 +10,7 @@
 #include "io/datasets/euroc_dataset.h"
 #include "io/datasets/image_folder_dataset.h"
 #include "io/datasets/kitti_dataset.h"
+#include "io/datasets/masked_dataset.h"
 #include "io/datasets/playback_dataset.h"
 #include "io/datasets/tum_mono_dataset.h"
 #include "io/datasets/tum_rgbd_dataset.h"
@@ -101,7 +102,7 @@ std::unique_ptr<Dataset> open_whole(const fs::path& path, const DatasetOptions& 
 }  // namespace
 
 std::unique_ptr<Dataset> open_dataset(const fs::path& path, const DatasetOptions& options) {
-  return make_playback_dataset(open_whole(path, options), options);
+  return make_playback_dataset(make_masked_dataset(open_whole(path, options), options.mask), options);
 }
 
 }  // namespace ldso

@@ -34,6 +34,7 @@ class PlaybackDataset final : public Dataset {
 
   int size() const override { return static_cast<int>(frames_.size()); }
   double timestamp(int index) const override { return sequence_->timestamp(source(index)); }
+  std::string frame_name(int index) const override { return sequence_->frame_name(source(index)); }
   const Calibration& calibration() const override { return sequence_->calibration(); }
   std::optional<Trajectory> ground_truth() const override { return sequence_->ground_truth(); }
   std::string format_name() const override { return sequence_->format_name(); }

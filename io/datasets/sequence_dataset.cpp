@@ -99,6 +99,7 @@ class SequenceDataset final : public Dataset {
 
   int size() const override { return static_cast<int>(sequence_.frames.size()); }
   double timestamp(int index) const override { return entry(index).timestamp; }
+  std::string frame_name(int index) const override { return entry(index).name; }
   const Calibration& calibration() const override { return sequence_.calibration; }
   std::optional<Trajectory> ground_truth() const override { return sequence_.ground_truth; }
   std::string format_name() const override { return sequence_.format_name; }

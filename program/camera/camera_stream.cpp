@@ -51,6 +51,7 @@ class CameraStream final : public FrameStream {
       throw Error(name_, "a camera can only be played from now on",
                   "leave out --start, --stride and --reverse; --end N ends after N frames");
     }
+    if (options.mask) throw Error(name_, "masks are for sequences", "leave out --mask, or record and give the file");
     open(camera);
     ask_for_format(options.fps);
     check_size();

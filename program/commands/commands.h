@@ -15,6 +15,9 @@ inline constexpr int kIncompleteExitCode = 3;
 /// `ldso run SEQUENCE -o OUT`: images to a trajectory and a map. Ends with kNothingTrackedExitCode or, by Ctrl-C, with
 /// kInterruptedExitCode.
 void add_run_command(CLI::App& app, int& exit_code);
+/// `ldso doctor SEQUENCE`: what is wrong with a sequence, and what to do. Ends with 2 if results will suffer from it, 1
+/// if it cannot be run.
+void add_doctor_command(CLI::App& app, int& exit_code);
 /// `ldso resume OUT`: results of a run that was cut off, from its last checkpoint.
 void add_resume_command(CLI::App& app);
 /// `ldso view OUT`: a finished run in the browser.

@@ -9,14 +9,18 @@
 #include <string>
 #include <vector>
 
+#include "io/calibration/camera_choice.h"
+#include "io/calibration/foreign_writer.h"
 #include "io/text/output_folder.h"
 #include "ldso/error.h"
+#include "ldso/io/calibration_file.h"
 #include "ldso/io/pcd_file.h"
 #include "ldso/io/ply_file.h"
 #include "ldso/io/trajectory_file.h"
 #include "output/colmap_export.h"
 #include "output/finished_run.h"
 #include "terminal/option_checks.h"
+#include "util/whole_file.h"
 #include "viewer/recording/recorded_map.h"
 #include "viewer/recording/recording_file.h"
 
@@ -43,6 +47,13 @@ class Source {
 
   const FinishedRun& run() const { return run_; }
 
+  /// The camera of the run.
+  const CameraCalibration& camera() const {
+    if (!run_.lens)
+      throw Error(run_.folder.string(), "was written by a version that kept no calibration", "run the sequence again");
+    return *run_.lens;
+  }
+
   Trajectory trajectory() const {
     const fs::path odometry = a_.run / "trajectory_odometry.txt";
     const bool before = a_.odometry && fs::exists(odometry);  // A run without loop closing has one trajectory only.
@@ -50,7 +61,10 @@ class Source {
   }
 
   PlacedMap map() {
-    if (!map_) map_ = read_recorded_map(a_.run / kRecordingName);
+    if (!map_) {
+      map_ = read_recorded_map(a_.run / kRecordingName);
+      scale_map(run_.metres_per_unit, *map_);
+    }
     PlacedMap placed{*map_, map_->corrected};
     if (a_.odometry) {
       for (std::size_t i = 0; i < placed.poses.size(); ++i) placed.poses[i] = Sim3d(map_->keyframes[i].T_world_camera);
@@ -108,20 +122,38 @@ constexpr std::array<Format, 7> kFormats{{
      [](const fs::path& path, Source& s, const ExportArguments&) { write_csv_trajectory(path, s.trajectory()); }},
 }};
 
-bool is_wanted(const Format& format, const ExportArguments& a) {
-  return std::find(a.formats.begin(), a.formats.end(), format.name) != a.formats.end();
+bool is_wanted(const char* format, const ExportArguments& a) {
+  return std::find(a.formats.begin(), a.formats.end(), format) != a.formats.end();
+}
+
+/// Files of all formats, or of those that are wanted.
+std::vector<std::string> file_names(const ExportArguments& a, bool all) {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) {
+    if (all || is_wanted(format.name, a)) names.emplace_back(format.file);
+  }
+  for (const ForeignFormat& format : kForeignFormats) {
+    if (all || is_wanted(format.name, a)) names.emplace_back(format.file);
+  }
+  return names;
 }
 
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
   for (const Format& format : kFormats) names.emplace_back(format.name);
+  for (const ForeignFormat& format : kForeignFormats) names.emplace_back(format.name);
   return names;
 }
 
 void add_options(CLI::App& command, ExportArguments& a) {
-  command.add_option("run", a.run, "Folder that `ldso run -o` wrote")->required();
   command
-      .add_option("--format", a.formats, "One or more: ply, pcd, colmap (the map); tum, kitti, euroc, csv (the poses)")
+      .add_option("run", a.run,
+                  "Folder that `ldso run -o` wrote; for formats of calibrations also a calibration in any format")
+      ->required();
+  command
+      .add_option("--format", a.formats,
+                  "One or more: ply, pcd, colmap (the map); tum, kitti, euroc, csv (the poses); kalibr, ros, opencv, "
+                  "colmap-camera, basalt, nerfstudio (the camera's calibration)")
       ->required()
       ->delimiter(',')
       ->check(CLI::IsMember(format_names()));
@@ -140,28 +172,47 @@ void add_options(CLI::App& command, ExportArguments& a) {
 /// The folder of the exports. In a run's own there were none but ldso's before it kept a list.
 OutputFolder open_export_folder(const ExportArguments& a) {
   OutputFolder out(a.out.value_or(a.run / "export"));
-  std::vector<std::string> names;
-  if (!a.out && !out.has_list()) {
-    for (const Format& format : kFormats) names.emplace_back(format.file);
-    out.adopt(names);
-  }
-  names.clear();
-  for (const Format& format : kFormats) {
-    if (is_wanted(format, a)) names.emplace_back(format.file);
-  }
-  out.check(names);
+  if (!a.out && !out.has_list()) out.adopt(file_names(a, true));
+  out.check(file_names(a, false));
   return out;
 }
 
+void write_calibrations(const ExportArguments& a, const CameraCalibration& camera, OutputFolder& out) {
+  for (const ForeignFormat& format : kForeignFormats) {
+    if (!is_wanted(format.name, a)) continue;
+    const std::string text = format.write(camera);
+    const fs::path path = out.file(format.file);
+    write_file(path, text);
+    std::cout << path.string() << "\n";
+  }
+}
+
+/// A calibration alone, without any run.
+void convert_calibration(const ExportArguments& a) {
+  const bool has_others =
+      std::any_of(kFormats.begin(), kFormats.end(), [&](const Format& format) { return is_wanted(format.name, a); });
+  if (has_others) throw Error(a.run.string(), "is no folder of a run", "of a file only calibrations can be made");
+  if (!a.out) throw Error(a.run.string(), "is a file", "say by -o where the calibration is to be written");
+  const Calibration calibration = read_camera_calibration(a.run);
+  for (const std::string& warning : calibration.warnings) std::cerr << "warning: " << warning << "\n";
+  OutputFolder out = open_export_folder(a);
+  write_calibrations(a, calibration.camera, out);
+}
+
 void export_run(const ExportArguments& a) {
+  if (fs::is_regular_file(choose_camera(a.run).file)) return convert_calibration(a);
   Source source(a);
+  const bool wants_camera = std::any_of(kForeignFormats.begin(), kForeignFormats.end(),
+                                        [&](const ForeignFormat& format) { return is_wanted(format.name, a); });
+  if (wants_camera) source.camera();  // What cannot be written is said before anything is.
   OutputFolder out = open_export_folder(a);
   for (const Format& format : kFormats) {
-    if (!is_wanted(format, a)) continue;
+    if (!is_wanted(format.name, a)) continue;
     const fs::path path = out.file(format.file);
     format.write(path, source, a);
     std::cout << path.string() << "\n";
   }
+  if (wants_camera) write_calibrations(a, source.camera(), out);
 }
 
 }  // namespace

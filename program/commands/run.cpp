@@ -19,10 +19,15 @@
 #include "output/run_results.h"
 #include "results/run_report.h"
 #include "running/live_runner.h"
+#include "scaling/metric_scale.h"
+#include "slam/scaled_result.h"
 #include "terminal/browser.h"
+#include "terminal/dataset_options.h"
+#include "terminal/doctor_hint.h"
 #include "terminal/interrupt.h"
 #include "terminal/option_checks.h"
 #include "terminal/progress_display.h"
+#include "terminal/scale_options.h"
 #include "viewer/live_run.h"
 
 namespace ldso {
@@ -33,6 +38,7 @@ namespace fs = std::filesystem;
 struct RunArguments {
   fs::path sequence, out;
   DatasetOptions dataset;
+  ScaleRequest scale;
   std::optional<fs::path> config, vocabulary;
   std::optional<int> threads;
   std::optional<std::string> view;
@@ -49,22 +55,11 @@ void add_options(CLI::App& command, RunArguments& a) {
                   "machine (camera:/dev/video2, camera:rtsp://... name others)")
       ->required();
   command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
-  command.add_option("--start", a.dataset.start, "First frame")->check(number_from_zero());
-  command.add_option("--end", a.dataset.end,
-                     "First frame that is not used any more; negative: so many left out at the end");
-  command.add_option("--stride", a.dataset.stride, "Use every n-th frame")->check(positive_number());
-  command.add_flag("--reverse", a.dataset.reverse, "Play from the last to the first frame");
-  command.add_option("--calib", a.dataset.calibration_file,
-                     "Calibration instead of the sequence's: camera.txt, or as another program wrote it");
+  add_dataset_options(command, a.dataset);
   CLI::Option* live = command.add_flag("--live", a.live,
                                        "Play the sequence at its own pace, as a camera would give it: frames that come "
                                        "too fast are dropped. A camera is always live");
-  command
-      .add_option("--fps", a.dataset.fps,
-                  "Frame rate of a sequence without times, or to ask a camera for [Hz]; 30000/1001 is one as well")
-      ->transform(frame_rate());
-  command.add_option("--pattern", a.dataset.pattern,
-                     "Which images of a folder, e.g. frame-%d.color.png (%d: a number, *: any text)");
+  add_scale_options(command, a.scale);
   command.add_option("--config", a.config, "Settings (YAML)");
   command.add_option("--set", a.set, "One setting, e.g. selection.strategy=gradient; can be repeated")
       ->type_name("KEY=VALUE");
@@ -184,8 +179,10 @@ bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
   RunOptions options;
   options.stop = &interrupt.flag();
   options.observer = live.observer();
+  DoctorHint hint(input.is_camera ? "" : a.sequence.lexically_normal().string(), log);
   options.progress = [&](const RunProgress& progress) {
     display.update(progress);
+    hint.after_frame(progress.frame);
     live.after_frame(progress.done, progress.count, interrupt.flag(), progress.dropped);
   };
   CheckpointWriter checkpoints(out, summary, *input.dataset,
@@ -209,6 +206,26 @@ bool run_with_display(const Input& input, const RunArguments& a, LiveRun& live, 
   return interrupt.flag();
 }
 
+/// Puts the result into metres, if a known length was given and tells its unit.
+void make_metric(const RunArguments& a, const Dataset& dataset, RunSummary& summary) {
+  if (a.scale.is_empty()) return;
+  summary.scale = estimate_scale(a.scale, summary.run.result, summary.run.calibration, dataset);
+  if (summary.scale->problem.empty()) {
+    scale_result(summary.scale->metres_per_unit, summary.run.result);
+    return;
+  }
+  summary.warnings.push_back("the scale stays free, " + summary.scale->source + ": " + summary.scale->problem);
+  std::cerr << "warning: " << summary.warnings.back() << "\n";
+}
+
+/// What makes no sense for this sequence is said before the run.
+void check_scale(const RunArguments& a, const Input& input) {
+  if (input.is_camera && a.scale.tag)
+    throw Error("--scale-tag", "the images of a camera are not kept, so that no tag can be looked for",
+                "record, and run the recording");
+  check_request(a.scale, input.dataset->size());
+}
+
 /// Everything that the run leaves, as far as it can be written; what could not be is said. Whether all was.
 bool write_results(const RunArguments& a, const Dataset& dataset, OutputFolder& out, RunSummary& summary) {
   const auto warn = [](const std::string& warning) { std::cerr << "warning: " << warning << "\n"; };
@@ -227,7 +244,7 @@ int exit_code_of(const RunSummary& summary) {
 void check_output(const RunArguments& a) {
   if (camera_of(a.sequence.string())) return;
   std::vector<fs::path> files;
-  for (const std::optional<fs::path>& file : {a.dataset.calibration_file, a.config, a.vocabulary}) {
+  for (const std::optional<fs::path>& file : {a.dataset.calibration_file, a.dataset.mask, a.config, a.vocabulary}) {
     if (file) files.push_back(*file);
   }
   refuse_output_in_input(a.out, a.sequence, files);
@@ -240,12 +257,14 @@ int run(const RunArguments& a) {
   summary.settings = read_all_settings(a);
   const Input input = open_input(a);
   const Dataset& dataset = *input.dataset;
+  check_scale(a, input);
   OutputFolder out = prepare_output_folder(a.out);
 
   LiveRun live(live_options(a, input));
   if (a.view) announce_page(live.url());
 
   const bool was_interrupted = run_with_display(input, a, live, out, summary);
+  make_metric(a, dataset, summary);
   const std::string ended_early = summary.run.error;
   const bool is_complete = write_results(a, dataset, out, summary);
   if (!a.quiet) std::cout << summary_text(summary) << "results        " << a.out.string() << "\n";
@@ -262,7 +281,8 @@ int run(const RunArguments& a) {
   if (code == kNothingTrackedExitCode) {
     const auto stretches = untracked_stretches(summary);
     std::cerr << "error: " << a.sequence.string() << ": no frame could be tracked"
-              << (stretches.empty() ? "" : "; last reason: " + stretches.back().reason) << "\n";
+              << (stretches.empty() ? "" : "; last reason: " + stretches.back().reason)
+              << (input.is_camera ? "" : "; `ldso doctor " + a.sequence.string() + "` says what may be wrong") << "\n";
   }
   return code;
 }

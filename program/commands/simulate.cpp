@@ -51,6 +51,10 @@ void add_scene_options(CLI::App& command, SimulateArguments& a) {
       .add_option("--motion", a.recipe.motion,
                   "Before the wall: sideways (default), forward, turning, standing, orbit or slow (at first)")
       ->check(CLI::IsMember({"sideways", "forward", "turning", "standing", "orbit", "slow"}));
+  command
+      .add_option("--tag", a.recipe.tag,
+                  "Rooms: an AprilTag on a wall, e.g. 36h11:3:0.4 (side of its black square in metres)")
+      ->type_name("FAMILY:ID:METRES");
   command.add_option("--scale", a.recipe.scale, "Size of the street circuit; indoors the part of the way walked")
       ->check(positive_number());
   command.add_option("--speed", a.recipe.speed, "Speed on streets [m/s]")

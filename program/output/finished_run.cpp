@@ -1,9 +1,11 @@
 #include "output/finished_run.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "io/text/json_text.h"
 #include "ldso/error.h"
+#include "ldso/io/calibration_file.h"
 #include "output/run_files.h"
 #include "util/whole_file.h"
 
@@ -22,6 +24,29 @@ PinholeIntrinsics camera_of(const Json& json) {
           json.at("cy")};
 }
 
+/// `self_calibration.camera` of run.json.
+std::optional<CameraCalibration> lens_of(const Json& json) {
+  if (!json.contains("width")) return std::nullopt;
+  CameraCalibration camera;
+  const auto name = json.at("model").get<std::string>();
+  for (const CameraModelKind kind :
+       {CameraModelKind::kPinhole, CameraModelKind::kFov, CameraModelKind::kRadTan, CameraModelKind::kKannalaBrandt,
+        CameraModelKind::kDoubleSphere, CameraModelKind::kEucm}) {
+    if (name == model_name(kind)) camera.model = kind;
+  }
+  const PinholeIntrinsics pinhole = camera_of(json);
+  camera.width = pinhole.width;
+  camera.height = pinhole.height;
+  camera.fx = pinhole.fx;
+  camera.fy = pinhole.fy;
+  camera.cx = pinhole.cx;
+  camera.cy = pinhole.cy;
+  camera.distortion = json.at("distortion").get<std::array<double, 4>>();
+  camera.more_distortion = json.at("more_distortion").get<std::array<double, 4>>();
+  camera.readout_ms = json.at("readout_ms");
+  return camera;
+}
+
 DatasetOptions options_of(const Json& sequence) {
   DatasetOptions options;
   options.start = json_value<int>(sequence.at("start"));
@@ -32,6 +57,7 @@ DatasetOptions options_of(const Json& sequence) {
   if (sequence.contains("calib") && !sequence["calib"].is_null())
     options.calibration_file = sequence["calib"].get<std::string>();
   if (sequence.contains("fps") && !sequence["fps"].is_null()) options.fps = sequence["fps"].get<double>();
+  if (sequence.contains("mask") && !sequence["mask"].is_null()) options.mask = sequence["mask"].get<std::string>();
   if (sequence.contains("pattern")) options.pattern = sequence["pattern"].get<std::string>();
   return options;
 }
@@ -50,6 +76,9 @@ FinishedRun read_finished_run(const fs::path& folder) {
     run.sequence = sequence.at("path").get<std::string>();
     run.options = options_of(sequence);
     run.camera = camera_of(sequence.at("estimated_camera"));
+    run.lens = lens_of(json.at("self_calibration").at("camera"));
+    if (json.contains("scale") && !json["scale"].is_null()) run.metres_per_unit = json["scale"].at("metres_per_unit");
+    if (!(run.metres_per_unit > 0)) throw Error(path.string(), "the scale is not positive", "run the sequence again");
     if (json.at("self_calibration").at("corrected").get<bool>()) run.options.calibration_file = folder / "camera.txt";
   } catch (const Json::exception& error) {
     throw Error(path.string(), std::string("it is damaged (") + error.what() + ")", "run the sequence again");

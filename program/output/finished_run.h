@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "ldso/io/dataset.h"
 
@@ -13,6 +14,9 @@ struct FinishedRun {
   std::filesystem::path sequence;
   DatasetOptions options;    ///< With the calibration that the run ended with.
   PinholeIntrinsics camera;  ///< Of the rectified images, as estimated.
+  /// As the run ended with it; runs of older versions do not say.
+  std::optional<CameraCalibration> lens = std::nullopt;
+  double metres_per_unit = 1;  ///< By which the recording, in the units of the run, becomes what its results are in.
 };
 
 /// Throws Error if the folder holds no finished run.

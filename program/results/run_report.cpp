@@ -57,6 +57,8 @@ Json self_calibration_json(const SequenceRun& run) {
           {"found", found_json(run)},
           {"camera",
            {{"model", model_name(camera.model)},
+            {"width", camera.width},
+            {"height", camera.height},
             {"fx", camera.fx},
             {"fy", camera.fy},
             {"cx", camera.cx},
@@ -94,6 +96,7 @@ Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
           {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
           {"fps", options.fps ? Json(*options.fps) : Json()},
           {"pattern", options.pattern},
+          {"mask", options.mask ? Json(options.mask->string()) : Json()},
           {"camera", describe(calibration.camera, calibration.rectification)},
           {"calibration", calibration.description},
           {"response_known", calibration.photometric.inverse_response.has_value()},
@@ -185,6 +188,27 @@ std::string live_text(const SequenceRun& run) {
   return format_text(
       "live           %d frames dropped, at most %d in a row; %.0f ms from a frame to its pose, at most %.0f\n",
       run.live->dropped, run.live->longest_gap, run.live->mean_latency_ms, run.live->worst_latency_ms);
+}
+
+Json scale_json(const std::optional<ScaleEstimate>& scale) {
+  if (!scale) return {};
+  const auto known = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  return {{"metric", scale->problem.empty()},
+          {"source", scale->source},
+          {"metres_per_unit", scale->metres_per_unit},
+          {"relative_stddev", known(scale->relative_stddev)},
+          {"measurements", scale->measurements},
+          {"drift", known(scale->drift)},
+          {"problem", scale->problem}};
+}
+
+std::string scale_text(const std::optional<ScaleEstimate>& scale) {
+  if (!scale) return "";
+  if (!scale->problem.empty()) return "scale          free: " + scale->problem + "\n";
+  std::string text = "scale          metric, by " + scale->source;
+  if (scale->relative_stddev) text += format_text("; standard deviation %.2f %%", 100 * *scale->relative_stddev);
+  if (scale->drift) text += format_text("; drifts by %.1f %%", 100 * (*scale->drift - 1));
+  return text + "\n";
 }
 
 std::string loops_text(const RunSummary& summary) {
@@ -309,7 +333,7 @@ std::string summary_text(const RunSummary& summary) {
       format_text("time           %.2f s, %.1f frames/s; peak memory %.0f MB\n", summary.run.seconds,
                   frames_per_second(summary.run), peak_memory_mb());
   return text + segments_text(summary) + live_text(summary.run) + calibration_text(summary.run) + loops_text(summary) +
-         evaluation_text(summary);
+         scale_text(summary.scale) + evaluation_text(summary);
 }
 
 Json run_json(const RunSummary& summary, const Dataset& dataset) {
@@ -319,6 +343,7 @@ Json run_json(const RunSummary& summary, const Dataset& dataset) {
   json["sequence"] = sequence_json(summary, dataset);
   json["settings"] = settings_to_json(summary.settings);
   json["self_calibration"] = self_calibration_json(run);
+  json["scale"] = scale_json(summary.scale);
   json["counts"] = counts_json(summary);
   json["live"] = live_json(run);
   json["first_tracked_frame"] = summary.posed.empty() ? Json() : Json(summary.posed.front());

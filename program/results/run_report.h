@@ -12,6 +12,7 @@
 #include "ldso/io/dataset.h"
 #include "ldso/sequence_run.h"
 #include "ldso/settings.h"
+#include "scaling/metric_scale.h"
 #include "viewer/live_run.h"
 
 namespace ldso {
@@ -53,6 +54,7 @@ struct RunSummary {
   std::vector<std::string> warnings;
   std::vector<std::uint8_t> recording;  ///< For `ldso view`.
   std::vector<FrameCost> frame_costs;
+  std::optional<ScaleEstimate> scale;  ///< If a known length was given; without a problem the result is metric.
   RunEvaluation evaluation;
   RunEvaluation odometry_evaluation;  ///< Before loop closing.
 

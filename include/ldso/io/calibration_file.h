@@ -21,7 +21,8 @@ namespace ldso {
 /// Intrinsics with cx and cy below 1 are relative to the image size, f * size and c * size - 0.5; others are in pixels.
 /// Files of other programs are read as well: Kalibr's camchain, ROS' camera_info, OpenCV's FileStorage, ORB-SLAM's
 /// settings, COLMAP's cameras.txt, Basalt's json, KITTI's calib_cam_to_cam.txt, nerfstudio's transforms.json; they are
-/// rectified by `crop` at the size of the images.
+/// rectified by `crop` at the size of the images. Behind the path of one that holds several cameras may stand which is
+/// wanted: `camchain.yaml:cam1` or `camchain.yaml:1`, counted from 0; without, it is the first.
 /// `description` says which was read. Throws Error naming file, line and what is expected.
 Calibration read_camera_calibration(const std::filesystem::path& path);
 

@@ -14,6 +14,8 @@ namespace ldso {
 /// An image sequence with its calibration, whatever its format on disk. Errors of read() name the file.
 class Dataset : public FrameSource {
  public:
+  /// Of the frame's file or archive entry, within its folder; where there is none, the frame's number.
+  virtual std::string frame_name(int index) const { return std::to_string(index); }
   /// Poses of this camera, if the sequence carries them; they need not be at the frames' times.
   virtual std::optional<Trajectory> ground_truth() const = 0;
   virtual std::string format_name() const = 0;
@@ -38,6 +40,9 @@ struct DatasetOptions {
   /// Names of the images that are used, of several kinds in one folder: `%d` stands for a number, `*` for any text, as
   /// in "frame-%d.color.png". Empty: all, which have to be of one kind.
   std::string pattern = {};
+  /// What is not to be used, white: an image for all frames, or a folder with one for each. "none": nothing is masked,
+  /// not even the black surroundings of a round image, which are otherwise.
+  std::optional<std::filesystem::path> mask = std::nullopt;
 };
 
 /// Recognizes the format of a folder or file and opens it, with start, end, stride and reverse applied.

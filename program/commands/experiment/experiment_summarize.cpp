@@ -28,7 +28,7 @@ void print_warnings(const SummaryReport& report) {
   }
 }
 
-void summarize(SummarizeArguments& a) {
+void summarize_from(SummarizeArguments& a) {
   SummaryOptions& options = a.options;
   if (options.output.empty()) options.output = options.experiment / "summary";
   options.trajectories = !a.no_trajectories;
@@ -62,14 +62,14 @@ void add_experiment_summarize_command(CLI::App& experiment) {
   command->add_flag("--png", arguments->png, "Also write each figure as PNG (takes rsvg-convert)");
   command->add_flag("--no-trajectories", arguments->no_trajectories, "Do not draw trajectories");
   command->add_flag("--quiet", arguments->quiet, "Print warnings only");
-  command->callback([arguments] { summarize(*arguments); });
+  command->callback([arguments] { summarize_from(*arguments); });
 }
 
 void summarize_experiment(const fs::path& experiment, bool quiet) {
   SummarizeArguments arguments;
   arguments.quiet = quiet;
   arguments.options.experiment = experiment;
-  summarize(arguments);
+  summarize_from(arguments);
 }
 
 }  // namespace ldso

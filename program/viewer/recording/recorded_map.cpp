@@ -37,6 +37,14 @@ RecordedMap decode_recorded_map(const Bytes& recording, const std::string& name)
   return map;
 }
 
+void scale_map(double factor, RecordedMap& map) {
+  for (protocol::Keyframe& keyframe : map.keyframes) {
+    keyframe.T_world_camera.translation() *= factor;
+    for (Eigen::Vector3f& point : keyframe.points) point *= static_cast<float>(factor);
+  }
+  for (Sim3d& pose : map.corrected) pose = Sim3d(pose.rotation(), pose.translation() * factor, pose.scale());
+}
+
 RecordedMap read_recorded_map(const std::filesystem::path& path) {
   return decode_recorded_map(read_bytes(path), path.string());
 }

@@ -17,6 +17,9 @@ struct RecordedMap {
   std::vector<Sim3d> corrected;
 };
 
+/// All lengths become `factor` times as large.
+void scale_map(double factor, RecordedMap& map);
+
 /// Throws Error if the file cannot be read, is damaged or no recording.
 RecordedMap read_recorded_map(const std::filesystem::path& path);
 

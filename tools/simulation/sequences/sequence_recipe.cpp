@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/images/april_tag.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
@@ -116,6 +117,8 @@ void check(const SequenceRecipe& recipe) {
          "the world has no such style", "choose weak, wallpaper or dark for rooms, open for streets");
   demand(recipe.motion.empty() || recipe.world == "wall", "only the wall has a choice of motions",
          "leave --motion out or choose the world 'wall'");
+  demand(recipe.tag.empty() || is_room(recipe.world), "only rooms have tags",
+         "leave --tag out or choose the world 'room'");
   demand(recipe.frames >= 0, "the number of frames is negative", "give --frames 0 or more");
   demand(recipe.fps >= 0, "the frame rate is negative", "give --fps above 0");
   demand(recipe.scale > 0 && recipe.scale <= 10, "the scale is out of range", "give --scale within 0..10");
@@ -151,6 +154,10 @@ World make_world(const SequenceRecipe& recipe, const Trajectory& trajectory, Thr
   options.texel_scale = recipe.texel_scale;
   options.path_scale = path_scale;
   options.style = room_style_of(recipe.style);
+  if (!recipe.tag.empty()) {
+    const AprilTag tag = parse_april_tag(recipe.tag, "--tag");
+    options.tag = {draw_april_tag(tag.family, tag.id), tag.metres};
+  }
   if (recipe.world == "room") return make_room_world(options, pool);
   if (recipe.world == "window_room") return make_window_room_world(options, pool);
   return make_corridor_world(options, pool);

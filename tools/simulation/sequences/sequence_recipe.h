@@ -21,6 +21,7 @@ struct SequenceRecipe {
   int frames = 0;             ///< At most this many; 0: the whole way.
   int width = 0, height = 0;  ///< Image size [px]; 0: as is usual for the world. Intrinsics scale with it.
   double fps = 0;             ///< 0: as is usual for the world.
+  std::string tag;            ///< Rooms: an AprilTag on the wall, "36h11:3:0.4" (metres); empty: none.
   double scale = 1;           ///< Streets: size of the circuit. Indoors: part of the way that is walked.
   double speed = 10;          ///< Streets: [m/s].
   int models = 0;             ///< Streets: houses, cars and signs come in so many models each; 0: all differ.

@@ -38,6 +38,7 @@ void write_description(const fs::path& path, const SimulatedSequence& sequence, 
   entry(out, "world", recipe.world);
   if (!recipe.style.empty()) entry(out, "style", recipe.style);
   if (!recipe.motion.empty()) entry(out, "motion", recipe.motion);
+  if (!recipe.tag.empty()) entry(out, "tag", recipe.tag);
   entry(out, "seed", recipe.seed);
   entry(out, "frames", frames);
   entry(out, "path_length_m", sequence.path_length());

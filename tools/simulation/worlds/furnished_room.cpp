@@ -45,6 +45,7 @@ class Room {
     plant({-half_x_ + 0.35, 0, -half_z_ + 0.4});
     floor_lamp({-half_x_ + 0.4, 0, half_z_ - 0.35});
     for (int i = 0; i < 5; ++i) loose_box();
+    if (options_.tag.size > 0) tag();
     return builder_.finish(pool);
   }
 
@@ -147,6 +148,22 @@ class Room {
       }
       x += w + random.uniform(0.08, 0.4);
     }
+  }
+
+  /// Before the wall, where nothing stands in its way from across the room.
+  void tag() {
+    const double cell = options_.tag.size / options_.tag.cells.width();
+    const double side = options_.tag.size + 2 * cell;
+    const Skin skin = painted(side, side, [cells = options_.tag.cells, cell](Canvas& c) {
+      c.fill(0.85f);
+      for (int y = 0; y < cells.height(); ++y) {
+        for (int x = 0; x < cells.width(); ++x) {
+          if (cells(x, y) != 0) continue;
+          c.rectangle((x + 1) * cell, (y + 1) * cell, (x + 2) * cell, (y + 2) * cell, 0.08f);
+        }
+      }
+    });
+    builder_.quad({half_x_ - 0.01, -1.75 - 0.5 * side, 0.5 * side}, {0, 0, -side}, {0, side, 0}, skin);
   }
 
   void shell() {

@@ -43,7 +43,7 @@ std::vector<WalkPoint> room_walk(const FurnishedRoom& room, const IndoorOptions&
 double light_of(RoomStyle style) { return style == RoomStyle::kDark ? kDarkLight : 1; }
 
 World make_room_world(const RoomOptions& options, ThreadPool* pool) {
-  FurnishedRoom room = furnish_room({options.seed, options.texel_scale, options.style, false}, pool);
+  FurnishedRoom room = furnish_room({options.seed, options.texel_scale, options.style, false, options.tag}, pool);
   World world;
   world.name = "room";
   world.light = light_of(options.style);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "simulation/worlds/furnished_room.h"
 #include "simulation/worlds/room_style.h"
 #include "simulation/worlds/world_builder.h"
 
@@ -17,6 +18,7 @@ struct IndoorOptions {
 
 struct RoomOptions : IndoorOptions {
   RoomStyle style = RoomStyle::kUsual;
+  WallTag tag;
 };
 
 /// About 6 x 5 x 2.8 m; a way of about 16 m in 30 s.

@@ -73,7 +73,7 @@ std::vector<WalkPoint> window_walk(const FurnishedRoom& room, const IndoorOption
 }  // namespace
 
 World make_window_room_world(const RoomOptions& options, ThreadPool* pool) {
-  FurnishedRoom room = furnish_room({options.seed, options.texel_scale, options.style, true}, pool);
+  FurnishedRoom room = furnish_room({options.seed, options.texel_scale, options.style, true, options.tag}, pool);
   World world;
   world.name = "window_room";
   world.light = light_of(options.style);

@@ -1,0 +1,13 @@
+#pragma once
+// The options of commands that play a sequence.
+
+#include <CLI/CLI.hpp>
+
+#include "ldso/io/dataset.h"
+
+namespace ldso {
+
+/// --start, --end, --stride, --reverse, --calib, --fps and --pattern. `options` must outlive the parsing.
+void add_dataset_options(CLI::App& command, DatasetOptions& options);
+
+}  // namespace ldso
