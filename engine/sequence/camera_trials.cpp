@@ -15,9 +15,14 @@
 namespace ldso {
 namespace {
 
-/// Frames at most, and windows that are enough.
+/// Frames at most, and windows and frames that are enough: where nearly every frame is a keyframe, few frames show
+/// little of how the camera turns, which is what tells its focal length.
 constexpr int kMostFrames = 300;
 constexpr std::size_t kEnoughWindows = 24;
+constexpr int kEnoughFrames = 160;
+/// Fewer points tell the cameras apart as well, and sooner.
+constexpr int kCandidates = 1000;
+constexpr int kActivePoints = 1200;
 /// What the windows say of the lens counts from so many standard deviations on.
 constexpr double kSignificance = 3;
 /// Windows that two trials must share to be compared, and the share of the other's frames below which one has failed.
@@ -30,6 +35,8 @@ constexpr double kShrinkByLoss = 1.5;
 Settings trial_settings(Settings settings) {
   settings.loops.enabled = false;
   settings.revision.enabled = false;
+  settings.selection.candidates = std::min(settings.selection.candidates, kCandidates);
+  settings.window.active_points = std::min(settings.window.active_points, kActivePoints);
   settings.self_calibration.frames = kMostFrames;
   settings.self_calibration.significance = kSignificance;
   return settings;
@@ -68,7 +75,7 @@ CameraTrial CameraTrials::run(const Calibration& camera, int family) {
     const FrameRecord& frame = item->value ? feed(pipeline, *item->value)
                                            : pipeline.skip(item->index, source_.timestamp(item->index), item->error);
     const bool is_new = watch.add(frame, pipeline);
-    if (is_fixed_ || !is_new || watch.findings().fits.size() < kEnoughWindows) continue;
+    if (is_fixed_ || !is_new || frames < kEnoughFrames || watch.findings().fits.size() < kEnoughWindows) continue;
     frames_ = frames;
     is_fixed_ = true;
     break;

@@ -68,7 +68,7 @@ exact = world.depth(int(keyframe.frame_ids[host]))[np.round(v).astype(int), np.r
 error = np.abs(z / exact - 1)
 print(f"depths of keyframe {keyframe.frame_ids[host]}: median error {100 * np.median(error):.2f} %")
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4))
+figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4), constrained_layout=True)
 left.imshow(world[int(keyframe.frame_ids[host])].image, cmap="gray")
 shown = left.scatter(u, v, c=z, s=6, cmap="turbo")
 figure.colorbar(shown, ax=left, label="depth [m]")
