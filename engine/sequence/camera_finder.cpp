@@ -76,6 +76,12 @@ Calibration next_camera(const std::vector<CameraTrial>& trials, const CameraTria
                            std::exp(trial.log_focal() + share * (other->log_focal() - trial.log_focal())));
 }
 
+/// Whether its windows want it to stay as it is, or nearly so.
+bool is_settled(const CameraTrial& trial) {
+  const double bend = trial.findings.better.camera.distortion[0] - trial.camera.camera.distortion[0];
+  return trial.step() == 0 || (std::abs(trial.step()) < kNearEnough && std::abs(bend) < kSameDistortion);
+}
+
 class Finder {
  public:
   Finder(const FrameSource& source, const Settings& settings, const LogSink& log, const std::atomic<bool>* stop)
@@ -116,7 +122,7 @@ class Finder {
     std::vector<CameraTrial> best(trials_.begin(),
                                   trials_.begin() + static_cast<std::ptrdiff_t>(std::min(count, trials_.size())));
     for (const CameraTrial& trial : best) {
-      if (std::abs(trial.step()) < kNearEnough) continue;
+      if (is_settled(trial)) continue;
       const Calibration next = next_camera(trials_, trial);
       if (!was_tried(next)) add(next, trial.family);
     }
@@ -134,7 +140,8 @@ class Finder {
     const CameraTrial& best = trials_.front();
     for (const CameraTrial& other : trials_) {
       const bool is_other = std::abs(other.log_focal() - best.log_focal()) > kOtherFocal;
-      if (!is_other || residual_change(best, other) > kSameResidual) continue;
+      // What its own windows want to change is no alternative, but on its way to one.
+      if (!is_other || !is_settled(other) || residual_change(best, other) > kSameResidual) continue;
       return format_text("focal lengths of %.0f and of %.0f px explain the images equally well", best.camera.camera.fx,
                          other.camera.camera.fx);
     }
