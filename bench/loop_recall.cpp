@@ -109,11 +109,7 @@ bool measure(const Options& options) {
 }
 
 bool run(Options options) {
-  for (const std::string& assignment : options.assignments) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos) throw Error("--set " + assignment, "is no KEY=VALUE", "");
-    set_setting(options.run.settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  set_settings(options.run.settings, options.assignments);
   bool all_right = true;
   for (const auto& sequence : options.sequences) {
     options.run.sequence = sequence;

@@ -21,6 +21,7 @@ Calibration with_longest_side(Calibration calibration, int longest_side) {
   rectification.height =
       static_cast<int>(std::lround(static_cast<double>(longest_side) * height / std::max(width, height)));
   if (rectification.mode == RectificationMode::kNone) rectification.mode = RectificationMode::kCrop;
+  if (rectification.mode != RectificationMode::kExplicit) return calibration;
   PinholeIntrinsics& given = rectification.explicit_intrinsics;
   const double scale_x = static_cast<double>(rectification.width) / width;
   const double scale_y = static_cast<double>(rectification.height) / height;

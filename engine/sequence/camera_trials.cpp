@@ -28,8 +28,6 @@ constexpr double kSignificance = 3;
 /// Windows that two trials must share to be compared, and the share of the other's frames below which one has failed.
 constexpr std::size_t kLeastShared = 6;
 constexpr double kLeastShare = 0.4;
-/// What does not fit may be left out: by so much the residuals shrink with the share of inliers that is lost.
-constexpr double kShrinkByLoss = 1.5;
 
 /// Without what a trial does not need.
 Settings trial_settings(Settings settings) {
@@ -75,7 +73,7 @@ CameraTrial CameraTrials::run(const Calibration& camera, int family) {
     const FrameRecord& frame = item->value ? feed(pipeline, *item->value)
                                            : pipeline.skip(item->index, source_.timestamp(item->index), item->error);
     const bool is_new = watch.add(frame, pipeline);
-    if (is_fixed_ || !is_new || frames < kEnoughFrames || watch.findings().fits.size() < kEnoughWindows) continue;
+    if (is_fixed_ || !is_new || frames < kEnoughFrames || watch.windows() < kEnoughWindows) continue;
     frames_ = frames;
     is_fixed_ = true;
     break;

@@ -16,7 +16,7 @@ Calibration with_focal(double factor) {
 
 /// The frames speak for a focal length that is `factor` times the given one, and have residuals of `log_rmse`.
 CalibrationFindings findings(double deviations, double factor, double log_rmse) {
-  CalibrationFindings result{deviations, with_focal(factor), {}};
+  CalibrationFindings result{{deviations, with_focal(factor)}, {}};
   for (int frame = 40; frame < 300; frame += 5) result.fits.push_back({frame, log_rmse, 1});
   return result;
 }

@@ -2,6 +2,7 @@
 
 // Looks at the first frames of a pass over a sequence for signs that its calibration is wrong.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,8 @@
 namespace ldso {
 
 /// What the watched frames of a pass say.
-struct CalibrationFindings {
-  double deviations = 0;        ///< By so many standard deviations they contradict its calibration; 0: not by much.
-  Calibration better;           ///< What they speak for instead.
-  std::vector<WindowFit> fits;  ///< How well they are explained as it is.
-  LensVector stddevs =
-      LensVector::Zero();  ///< Of the lens that they speak for: fx, fy, cx, cy [px], two coefficients, readout [ms].
+struct CalibrationFindings : LensFinding {
+  std::vector<WindowFit> fits;  ///< How well the frames are explained with the calibration as it is.
 };
 
 class CalibrationWatch {
@@ -31,9 +28,10 @@ class CalibrationWatch {
   /// Frames that are looked at have all come.
   bool is_over() const { return frames_ >= settings_.frames; }
 
-  CalibrationFindings findings() const {
-    return {estimate_.deviations(), estimate_.better(), fits_, estimate_.stddevs()};
-  }
+  /// Windows that were looked at.
+  std::size_t windows() const { return fits_.size(); }
+
+  CalibrationFindings findings() const { return {estimate_.finding(), fits_}; }
 
  private:
   SelfCalibrationSettings settings_;

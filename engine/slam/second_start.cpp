@@ -29,9 +29,9 @@ Settings patient(Settings settings) {
 
 SecondStart::SecondStart(const Odometry& odometry, const Settings& settings, ThreadPool& pool)
     : settings_(settings.revision),
-      map_{odometry.unstarted(patient(settings), pool), {}, {}, -1},
       pool_(pool),
       patient_(patient(settings)),
+      map_{odometry.unstarted(patient_, pool), {}, {}, -1},
       queue_(kMostBehind),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 

@@ -60,9 +60,9 @@ class SecondStart {
   int waited_ = 0;                 ///< Frames before that.
   int age_ = 0;                    ///< Of the first map [frames].
   bool is_over_ = false;           ///< The first map is lost, or both are the same.
-  SecondMap map_;
   ThreadPool& pool_;
-  Settings patient_;                      ///< Of the second odometry.
+  Settings patient_;  ///< Of the second odometry.
+  SecondMap map_;
   std::atomic<std::int64_t> start_ = -1;  ///< The frame at which the second map began.
   std::string failure_;
   BoundedQueue<Item> queue_;

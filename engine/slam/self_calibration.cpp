@@ -65,9 +65,8 @@ LensEstimate SelfCalibration::estimate() const {
   return certain ? both : estimator_.estimate(/*readout_too=*/false);
 }
 
-double SelfCalibration::deviations() const {
+double SelfCalibration::deviations(const LensEstimate& better) const {
   if (estimator_.windows() < settings_.least_windows) return 0;
-  const LensEstimate better = estimate();
   if (!is_plausible(calibration_.camera, better)) return 0;
   const double readout_change = std::abs(better.camera.readout_ms - calibration_.camera.readout_ms);
   const bool worth_it = readout_change > settings_.least_readout_ms ||
@@ -75,17 +74,14 @@ double SelfCalibration::deviations() const {
   return worth_it ? std::sqrt(better.chi2) : 0;
 }
 
-LensVector SelfCalibration::stddevs() const {
-  LensVector stddevs = estimate().stddevs;
-  stddevs[kLensDof] *= 1e3;
-  return stddevs;
-}
-
-Calibration SelfCalibration::better() const {
-  Calibration better = calibration_;
-  better.camera = estimate().camera;
-  if (better.rectification.mode == RectificationMode::kNone) better.rectification.mode = RectificationMode::kCrop;
-  return better;
+LensFinding SelfCalibration::finding() const {
+  const LensEstimate lens = estimate();
+  LensFinding finding{deviations(lens), calibration_, lens.stddevs};
+  finding.better.camera = lens.camera;
+  if (finding.better.rectification.mode == RectificationMode::kNone)
+    finding.better.rectification.mode = RectificationMode::kCrop;
+  finding.stddevs[kLensDof] *= 1e3;
+  return finding;
 }
 
 }  // namespace ldso

@@ -10,6 +10,16 @@
 
 namespace ldso {
 
+struct LensFinding {
+  /// By how many of its standard deviations the residuals contradict the calibration. 0 if the difference is too small
+  /// to matter, if it comes from few windows, or if it is so large that something else must be wrong.
+  double deviations = 0;
+  /// The calibration with the lens that the residuals so far speak for, and with the shutter if they do so for certain.
+  Calibration better;
+  /// How well that lens is known: fx, fy, cx, cy [px], the first two coefficients, readout [ms].
+  LensVector stddevs = LensVector::Zero();
+};
+
 class SelfCalibration {
  public:
   /// `rectified`: the camera of the prepared frames.
@@ -19,18 +29,11 @@ class SelfCalibration {
   /// To be called after each keyframe of a sound map with the window as it then is. False if it tells nothing new.
   bool add(const Window& window) { return estimator_.add(window); }
 
-  /// By how many of its standard deviations the residuals contradict the calibration. 0 if the difference is too small
-  /// to matter, if it comes from few windows, or if it is so large that something else must be wrong.
-  double deviations() const;
-
-  /// How well the lens is known, readout in ms.
-  LensVector stddevs() const;
-
-  /// The calibration with the lens that the residuals so far speak for, and with the shutter if they do so for certain.
-  Calibration better() const;
+  LensFinding finding() const;
 
  private:
   LensEstimate estimate() const;
+  double deviations(const LensEstimate& better) const;
 
   Calibration calibration_;
   SelfCalibrationSettings settings_;

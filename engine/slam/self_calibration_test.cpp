@@ -38,8 +38,8 @@ TEST(SelfCalibration, WithoutEvidenceTheLensStaysButCanBeRectified) {
                                     calibration.camera.fy, calibration.camera.cx, calibration.camera.cy};
   SelfCalibration self_calibration(calibration, rectified, {});
   self_calibration.add(Window());
-  EXPECT_EQ(self_calibration.deviations(), 0);
-  const Calibration better = self_calibration.better();
+  EXPECT_EQ(self_calibration.finding().deviations, 0);
+  const Calibration better = self_calibration.finding().better;
   EXPECT_EQ(better.camera.model, CameraModelKind::kRadTan);
   EXPECT_EQ(better.camera.fx, calibration.camera.fx);
   EXPECT_EQ(better.camera.distortion[0], 0);

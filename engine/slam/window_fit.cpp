@@ -21,8 +21,6 @@ constexpr double kLeastImprovement = 0.004;
 constexpr double kLeastEverywhere = 0.01;
 /// In standard deviations; few stretches show theirs only roughly.
 constexpr double kSignificance = 3;
-/// A fit is not better because what does not fit was left out: by so much the rest shrinks with the share that is.
-constexpr double kShrinkByLoss = 1.5;
 
 /// Pixels from the edge of the image within which a pattern is not whole.
 constexpr double kBorder = 4;

@@ -12,6 +12,9 @@
 
 namespace ldso {
 
+/// A fit is not better because what does not fit was left out: by so much the rest shrinks with the share that is.
+inline constexpr double kShrinkByLoss = 1.5;
+
 /// One window after its optimization.
 struct WindowFit {
   std::int64_t frame_id = 0;    ///< Of its newest keyframe.

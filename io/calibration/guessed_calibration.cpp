@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+
+#include "image/working_size.h"
 
 namespace ldso {
 namespace {
@@ -23,18 +26,11 @@ Calibration guess_calibration(int width, int height, std::optional<double> focal
   camera.fx = camera.fy = focal_35mm ? *focal_35mm / kFilmDiagonal * std::hypot(width, height) : kUsualFocal * longer;
   camera.cx = (width - 1) / 2.0;
   camera.cy = (height - 1) / 2.0;
-  if (longer > kGuessedSize) {
-    const double scale = static_cast<double>(kGuessedSize) / longer;
-    guess.rectification = {RectificationMode::kCrop,
-                           static_cast<int>(std::lround(scale * width)),
-                           static_cast<int>(std::lround(scale * height)),
-                           {}};
-  }
   guess.source = focal_35mm ? CameraSource::kMetadata : CameraSource::kNone;
   guess.description = focal_35mm ? "no calibration; by the metadata of the images " +
                                        std::to_string(std::lround(*focal_35mm)) + " mm (35 mm equivalent)"
                                  : "no calibration; a guess";
-  return guess;
+  return with_longest_side(std::move(guess), kGuessedSize);
 }
 
 }  // namespace ldso

@@ -201,6 +201,14 @@ void set_setting(Settings& settings, const std::string& key, const std::string& 
   set_field(settings, "", key, value);
 }
 
+void set_settings(Settings& settings, const std::vector<std::string>& assignments) {
+  for (const std::string& assignment : assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos) throw Error("--set " + assignment, "has no value", "write --set key=value");
+    set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+}
+
 std::vector<std::string> setting_keys() {
   const Settings settings;
   std::vector<std::string> keys;

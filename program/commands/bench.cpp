@@ -46,11 +46,7 @@ class KeptFrames final : public FrameSource {
 
 Settings bench_settings(const BenchArguments& a) {
   Settings settings;
-  for (const std::string& assignment : a.set) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos) throw Error("--set " + assignment, "has no value", "write --set key=value");
-    set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  set_settings(settings, a.set);
   settings.threads = a.threads;
   settings.validate();
   return settings;

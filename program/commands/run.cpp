@@ -95,11 +95,7 @@ void add_options(CLI::App& command, RunArguments& a) {
 Settings read_all_settings(const RunArguments& a) {
   Settings settings;
   if (a.config) read_settings(*a.config, settings);
-  for (const std::string& assignment : a.set) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos) throw Error("--set " + assignment, "has no value", "write --set key=value");
-    set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  set_settings(settings, a.set);
   if (a.threads) settings.threads = *a.threads;
   if (a.vocabulary) settings.loops.vocabulary = a.vocabulary->string();
   if (a.no_loops) settings.loops.enabled = false;

@@ -22,6 +22,9 @@ void write_settings(const std::filesystem::path& path, const Settings& settings)
 /// Sets the one that `key` names, e.g. set_setting(settings, "selection.candidates", "1500"). Throws Error likewise.
 void set_setting(Settings& settings, const std::string& key, const std::string& value);
 
+/// The same for each of `assignments`, "key=value" as `ldso run --set` takes them, in order.
+void set_settings(Settings& settings, const std::vector<std::string>& assignments);
+
 /// All dotted keys, in order.
 std::vector<std::string> setting_keys();
 
