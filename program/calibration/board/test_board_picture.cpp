@@ -47,10 +47,12 @@ BoardPainter::BoardPainter(const Board& board, const CameraModel& camera) {
   }
 }
 
-float BoardPainter::level_at(const Eigen::Vector2d& p) const {
-  const int x = static_cast<int>(std::floor((p.x() - upper_left_.x()) * cells_per_metre_));
-  const int y = static_cast<int>(std::floor((p.y() - upper_left_.y()) * cells_per_metre_));
-  if (x < 0 || y < 0 || x >= pattern_.width() || y >= pattern_.height()) return kGround;
+float BoardPainter::level_at(const Eigen::Vector2f& cell) const {
+  // No rounding down by a function: this is most of the time that a picture takes.
+  const bool is_within = cell.x() >= 0 && cell.y() >= 0 && cell.x() < static_cast<float>(pattern_.width()) &&
+                         cell.y() < static_cast<float>(pattern_.height());
+  if (!is_within) return kGround;
+  const int x = static_cast<int>(cell.x()), y = static_cast<int>(cell.y());
   return pattern_(x, y) == 0 ? kBlack : kWhite;
 }
 
@@ -58,7 +60,10 @@ Image<float> BoardPainter::paint(const SE3d& pose, const BoardPictureOptions& op
   // From rays to the plane z = 0 of the board.
   Eigen::Matrix3d to_rays = pose.rotation_matrix();
   to_rays.col(2) = pose.translation();
-  const Eigen::Matrix3f H = to_rays.inverse().cast<float>();
+  Eigen::Matrix3d to_cells;
+  to_cells << cells_per_metre_, 0, -upper_left_.x() * cells_per_metre_, 0, cells_per_metre_,
+      -upper_left_.y() * cells_per_metre_, 0, 0, 1;
+  const Eigen::Matrix3f H = (to_cells * to_rays.inverse()).cast<float>();
   const int width = rays_.width() - 1, height = rays_.height() - 1;
   cv::Mat picture(height, width, CV_32F);
   for (int y = 0; y < height; ++y) {
@@ -70,7 +75,7 @@ Image<float> BoardPainter::paint(const SE3d& pose, const BoardPictureOptions& op
         const Eigen::Vector2f ray = (1 - b) * ((1 - a) * rays_(x, y) + a * rays_(x + 1, y)) +
                                     b * ((1 - a) * rays_(x, y + 1) + a * rays_(x + 1, y + 1));
         const Eigen::Vector3f p = H * ray.homogeneous();
-        sum += p.z() > 0 ? level_at((p.head<2>() / p.z()).cast<double>()) : kGround;
+        sum += p.z() > 0 ? level_at(p.head<2>() / p.z()) : kGround;
       }
       picture.at<float>(y, x) = sum / (kSamples * kSamples);
     }

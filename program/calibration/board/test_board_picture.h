@@ -29,7 +29,7 @@ class BoardPainter {
   std::vector<SE3d> poses(int count, std::uint32_t seed) const;
 
  private:
-  float level_at(const Eigen::Vector2d& on_board) const;
+  float level_at(const Eigen::Vector2f& cell) const;
 
   Eigen::Vector2d upper_left_, lower_right_;
   double cells_per_metre_ = 1;

@@ -100,7 +100,7 @@ TEST(LensCalibration, FindsPinholeFromCircles) {
 TEST(LensCalibration, ChoosesTheModelAndTellsWhatIsMissing) {
   const CameraCalibration camera = camera_with(CameraModelKind::kFov, 230, {0.92, 0, 0, 0});
   const Board board = parse_board("aprilgrid:5x4:0.03", "");
-  std::vector<BoardView> views = rendered_views(board, camera, 10);
+  std::vector<BoardView> views = rendered_views(board, camera, 8);
   std::vector<LensCalibration> others;
   const LensCalibration lens = calibrate_best_lens(views, board, 480, 360, "views", &others);
   EXPECT_EQ(lens.kind, LensKind::kFov);
@@ -119,7 +119,7 @@ TEST(LensCalibration, ChoosesTheModelAndTellsWhatIsMissing) {
 TEST(LensCalibration, RefusesWrongPointsAndViews) {
   const CameraCalibration camera = camera_with(CameraModelKind::kRadTan, 390, {-0.25, 0.08, 0.0006, -0.0004});
   const Board board = parse_board("aprilgrid:5x4:0.03", "");
-  std::vector<BoardView> views = rendered_views(board, camera, 10);
+  std::vector<BoardView> views = rendered_views(board, camera, 8);
   views[2].points[3].pixel.x() += 4;
   for (std::size_t i = 0; i < views[5].points.size(); i += 2)
     views[5].points[i].pixel.y() += 5 + static_cast<double>(i % 3);
@@ -147,7 +147,7 @@ TEST(ViewChoice, TakesWhatIsNewAndStill) {
   };
   std::vector<MovingView> views{view_at(0, 20, 20), view_at(1, 21, 20), view_at(2, 400, 300), view_at(3, 20, 20)};
   views[0].pixels_per_frame = views[1].pixels_per_frame = 5;
-  const std::vector<BoardView> chosen = choose_views(views, board, 480, 360, 2);
+  const std::vector<BoardView> chosen = choose_views(views, board, 480, 360, 4);
   ASSERT_EQ(chosen.size(), 2u);
   EXPECT_EQ(chosen[0].frame, 2);
   EXPECT_EQ(chosen[1].frame, 3);

@@ -64,6 +64,13 @@ Aspects aspects_of(const BoardView& view, const std::vector<Eigen::Vector2d>& bo
   return aspects;
 }
 
+/// Whether two views show the same once more: that tells nothing new, but makes all of it look surer.
+bool are_same(const BoardView& a, const BoardView& b, int width) {
+  constexpr double kSame = 0.01;  // of the image's width
+  const auto motion = motion_between(a.points, b.points);
+  return motion && *motion < kSame * width;
+}
+
 double gain_of(const Aspects& aspects, const std::map<int, int>& counts) {
   double gain = 0;
   for (const int aspect : aspects) {
@@ -93,18 +100,21 @@ std::vector<BoardView> choose_views(const std::vector<MovingView>& views, const 
   std::vector<Aspects> aspects;
   for (const MovingView& moving : views) aspects.push_back(aspects_of(moving.view, points, width, height));
   std::map<int, int> counts;
-  std::vector<bool> is_chosen(views.size());
+  std::vector<bool> is_chosen(views.size()), is_left_out(views.size());
   for (int k = 0; k < std::min<int>(count, static_cast<int>(views.size())); ++k) {
     std::size_t best = views.size();
     double most = 0;
     for (std::size_t i = 0; i < views.size(); ++i) {
       const double gain = gain_of(aspects[i], counts) / (1 + std::pow(views[i].pixels_per_frame / kStill, 2));
-      if (is_chosen[i] || !(gain > most)) continue;
+      if (is_left_out[i] || !(gain > most)) continue;
       best = i;
       most = gain;
     }
     if (best == views.size()) break;
     is_chosen[best] = true;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (are_same(views[i].view, views[best].view, width)) is_left_out[i] = true;
+    }
     for (const int aspect : aspects[best]) ++counts[aspect];
   }
   std::vector<BoardView> chosen;

@@ -18,7 +18,7 @@ struct MovingView {
 /// Mean motion of the points that both views show [px]; nothing if there are none.
 std::optional<double> motion_between(const std::vector<SeenPoint>& a, const std::vector<SeenPoint>& b);
 
-/// At most `count` views, ordered by frame.
+/// At most `count` views, ordered by frame; of those that show the same, one.
 std::vector<BoardView> choose_views(const std::vector<MovingView>& views, const Board& board, int width, int height,
                                     int count);
 
