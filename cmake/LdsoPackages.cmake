@@ -79,5 +79,6 @@ set(CPACK_DEBIAN_LIBLDSO-DEV_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_LDSO_PACKAGE_SUGGESTS "bash-completion, libldso-dev, python3-ldso")
 set(CPACK_DEBIAN_PYTHON3-LDSO_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_LIBLDSO1_PACKAGE_CONTROL_EXTRA ${packaging}/libldso1/triggers ${packaging}/libldso1/shlibs)
+set(CPACK_DEBIAN_PYTHON3-LDSO_PACKAGE_CONTROL_EXTRA ${packaging}/python3-ldso/postinst ${packaging}/python3-ldso/prerm)
 
 include(CPack)
