@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mapping/map/chain_table.h"
+#include "mapping/matching/earlier_visits.h"
 #include "util/format_text.h"
 
 namespace ldso {
@@ -92,6 +93,13 @@ void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, co
   }
   map_.forget_depthless(index);
   if (is_due(index)) optimize();
+  if (earlier_visits(map_, corrected_, index, camera, settings_.detection, settings_.culling.min_share) <
+          settings_.culling.visits ||
+      settings_.culling.visits == 0) {
+    detector_.add(index, features.words);
+  } else {
+    map_.forget(index);
+  }
 }
 
 void LoopCloser::place(int index) {

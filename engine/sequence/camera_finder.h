@@ -1,9 +1,11 @@
 #pragma once
 
-// The camera of a sequence that nobody calibrated: several that might have taken it are tried on the first frames, and
-// the one with which the images are explained best is where self-calibration begins.
+// The camera of a sequence that nobody calibrated, or whose calibration is too wrong to be mended: several that might
+// have taken it are tried on the first frames, and the one with which the images are explained best is where
+// self-calibration begins.
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,5 +29,14 @@ struct CameraFinding {
 /// once `stop` is true. `source`: with a calibration that is a guess. Frames that cannot be read are skipped.
 CameraFinding find_camera(const FrameSource& source, const Settings& settings, const LogSink& log,
                           const std::atomic<bool>* stop);
+
+/// One that explains the first frames far better than `given` does, without a doubt; nothing if there is none.
+struct OtherCamera {
+  Calibration calibration;
+  std::string proof;  ///< What speaks for it.
+};
+std::optional<OtherCamera> find_other_camera(const FrameSource& source, const Calibration& given,
+                                             const Settings& settings, const LogSink& log,
+                                             const std::atomic<bool>* stop);
 
 }  // namespace ldso

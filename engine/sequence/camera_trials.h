@@ -31,7 +31,10 @@ class CameraTrials {
 
   bool is_stopped() const { return stop_ != nullptr && *stop_; }
 
-  /// All trials see the frames that the first one with enough windows needed.
+  /// A wrong camera may give a map sooner than the right one: all trials see as many frames as there may be.
+  void see_all_frames() { is_fixed_ = true; }
+
+  /// Without that they see the frames that the first one with enough windows needed.
   CameraTrial run(const Calibration& camera, int family);
 
  private:

@@ -1,17 +1,16 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "image/working_size.h"
 #include "ldso/error.h"
 #include "ldso/sequence_run.h"
-#include "sequence/camera_finder.h"
+#include "sequence/calibration_course.h"
 #include "sequence/checkpoint_clock.h"
 #include "sequence/ready_frame.h"
-#include "slam/calibration_search.h"
 #include "util/format_text.h"
 #include "util/log.h"
 #include "util/out_of_memory.h"
@@ -19,11 +18,6 @@
 
 namespace ldso {
 namespace {
-
-/// Standard deviations by which the images must contradict a camera that was found.
-constexpr double kFoundSignificance = 3;
-/// Standard deviation of the focal length, as a share of it, from which on it is unknown.
-constexpr double kLeastKnownFocal = 0.01;
 
 using Clock = std::chrono::steady_clock;
 
@@ -39,13 +33,6 @@ bool must_stop(const RunOptions& options) { return options.stop != nullptr && op
 /// What ends a pass over the sequence.
 enum class PassEnd { kDone, kStopped, kBeginsAnew };
 
-/// What the search has come to.
-void note_search(const CalibrationSearch& search, SequenceRun& run) {
-  run.is_corrected = search.is_corrected();
-  run.proof = search.proof();
-  run.refused_correction = search.refusal();
-}
-
 /// One pass over the sequence with one calibration.
 class Pass {
  public:
@@ -54,10 +41,10 @@ class Pass {
        const RunOptions& options)
       : source_(source), run_(run), log_(log), pipeline_(run.calibration, settings, log, options.observer) {}
 
-  /// `search` hears of the first frames and says whether to go on. It must outlive this.
-  void watch_for(CalibrationSearch& search, const SelfCalibrationSettings& settings) {
-    search_ = &search;
-    watch_.emplace(search.calibration(), settings, pipeline_);
+  /// `course` hears of the first frames and says whether to go on. It must outlive this.
+  void watch_for(CalibrationCourse& course, const SelfCalibrationSettings& settings) {
+    course_ = &course;
+    watch_.emplace(course.search().calibration(), settings, pipeline_);
     pipeline_.postpone_revision(true);
   }
 
@@ -89,16 +76,21 @@ class Pass {
   bool is_decided(const FrameRecord& frame) {
     if (!watch_) return false;
     const bool is_new = watch_->add(frame, pipeline_);
-    return watch_->is_over() || (is_new && search_->is_clear(watch_->findings()));
+    return watch_->is_over() || (is_new && course_->search().is_clear(watch_->findings()));
   }
 
   /// Once, when that is so.
   bool begins_anew() {
-    const bool anew = search_->begins_anew(watch_->findings());
+    const CalibrationFindings findings = watch_->findings();
+    log_to(log_, LogLevel::kInfo,
+           format_text("%zu windows contradict the calibration by %.1f standard deviations, each other by %.1f",
+                       findings.fits.size(), findings.deviations, std::sqrt(findings.disagreement)));
+    const CalibrationSearch& search = course_->search();
+    const bool anew = course_->search().begins_anew(findings);
     watch_.reset();
     pipeline_.postpone_revision(false);
-    note_search(*search_, run_);
-    if (search_->is_corrected()) log_to(log_, LogLevel::kWarning, "the better calibration stands: " + search_->proof());
+    course_->note(run_);
+    if (search.is_corrected()) log_to(log_, LogLevel::kWarning, "the better calibration stands: " + search.proof());
     return anew;
   }
 
@@ -107,58 +99,9 @@ class Pass {
   const LogSink& log_;
   Pipeline pipeline_;
   int done_ = 0;
-  CalibrationSearch* search_ = nullptr;
+  CalibrationCourse* course_ = nullptr;
   std::optional<CalibrationWatch> watch_;
 };
-
-void log_next(const CalibrationSearch& search, const LogSink& log) {
-  if (search.is_open()) {
-    log_to(log, LogLevel::kWarning,
-           (search.given().is_guess() ? "the images speak for " : "the images contradict the calibration: ") +
-               describe_change(search.given().camera, search.calibration().camera) +
-               format_text(" (%.0f standard deviations)", search.deviations()) +
-               "; starting again to see whether that is better");
-  } else {
-    log_to(log, LogLevel::kWarning,
-           "the calibration stands. Refused: " + search.refusal() + "; starting again with it");
-  }
-}
-
-/// What the search begins with.
-CameraFinding first_calibration(const FrameSource& source, const Settings& settings, const LogSink& log,
-                                const RunOptions& options) {
-  if (!source.calibration().is_guess()) return {with_longest_side(source.calibration(), settings.longest_side), {}};
-  if (!settings.self_calibration.enabled) {
-    throw Error("calibration", "there is none of the camera",
-                "give one with --calib, or let self_calibration.enabled=true look for it");
-  }
-  log_to(log, LogLevel::kInfo, "there is no calibration of the camera: looking for it");
-  return find_camera(source, settings, log, options.stop);
-}
-
-/// What was only found is left sooner for something better than what somebody has measured.
-SelfCalibrationSettings search_settings(const Calibration& given, SelfCalibrationSettings settings) {
-  if (given.is_guess()) settings.significance = std::min(settings.significance, kFoundSignificance);
-  return settings;
-}
-
-FoundCamera found_camera(const CalibrationSearch& search, const std::string& doubt, const LogSink& log) {
-  FoundCamera found;
-  std::copy_n(search.stddevs().data(), found.stddevs.size(), found.stddevs.begin());
-  const CameraCalibration& camera = search.calibration().camera;
-  const double share = found.stddevs[0] / camera.fx;
-  // What the windows of one camera say does not count while another one may be the right one.
-  found.doubt = doubt.empty() ? search.refusal() : doubt;
-  if (found.doubt.empty() && !(share > 0 && share < kLeastKnownFocal))
-    found.doubt = format_text("the motion tells the focal length only to %.1f %%", 100 * share);
-  if (!found.doubt.empty()) {
-    log_to(log, LogLevel::kWarning,
-           "nobody calibrated the camera, and this sequence does not tell how it sees: " + found.doubt +
-               ". The shape of trajectory and map may be wrong. Film something at several distances, moving sideways "
-               "and turning, or give a calibration with --calib");
-  }
-  return found;
-}
 
 /// A failure ends the pass where it is.
 PassEnd run_pass(Pass& pass, const RunOptions& options, CheckpointClock& checkpoints, SequenceRun& run) {
@@ -177,19 +120,18 @@ SequenceRun run_sequence(const FrameSource& source, const Settings& settings, co
   SequenceRun run;
   const Clock::time_point start = Clock::now();
   CheckpointClock checkpoints(options);
-  const CameraFinding first = first_calibration(source, settings, log, options);
-  CalibrationSearch search(first.calibration, search_settings(source.calibration(), settings.self_calibration));
+  CalibrationCourse course(source, settings, log, options.stop);
   for (run.passes = 1;; ++run.passes) {
-    run.calibration = search.calibration();
+    run.calibration = course.calibration();
     Pass pass(source, run, settings, log, options);
-    if (search.is_open()) pass.watch_for(search, settings.self_calibration);
+    if (course.is_open()) pass.watch_for(course, settings.self_calibration);
     const PassEnd end = run_pass(pass, options, checkpoints, run);
     if (end == PassEnd::kBeginsAnew) {
-      log_next(search, log);
+      course.begin_anew();
       continue;
     }
-    note_search(search, run);
-    if (source.calibration().is_guess()) run.found_camera = found_camera(search, first.doubt, log);
+    course.note(run);
+    course.note_found_camera(run);
     run.stopped = end == PassEnd::kStopped;
     run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.result = pass.finish();

@@ -30,6 +30,8 @@ class CalibrationSearch {
 
   /// By how many of its standard deviations the newest pass contradicted its calibration.
   double deviations() const { return deviations_; }
+  /// Whether the windows of a pass contradicted each other: then what they say together counts less than it is wrong.
+  bool is_disputed() const { return is_disputed_; }
   /// Passes that were watched.
   int passes() const { return passes_; }
   bool is_corrected() const { return state_ == State::kProven; }
@@ -45,12 +47,14 @@ class CalibrationSearch {
 
   /// Deviations that contradict the calibration of this pass.
   double contradiction() const;
+  bool contradicts(const CalibrationFindings& findings) const;
   /// What speaks against another pass after this one, the `pass`-th, or nothing.
   std::string objection(const CalibrationFindings& findings, int pass) const;
   bool try_next(const CalibrationFindings& findings);
   bool prove(const CalibrationFindings& findings);
   /// Whether the windows of the first and the last pass speak so plainly that the residuals need to say little.
   bool is_plain(const FitChange& change, const CalibrationFindings& findings) const;
+  bool accept(const std::string& proof);
   bool refuse(const std::string& why);
 
   Calibration given_, calibration_;
@@ -61,6 +65,7 @@ class CalibrationSearch {
   double deviations_ = 0;        ///< The same of the newest pass.
   double step_ = 0;              ///< The last change of the calibration [px].
   int passes_ = 0;
+  bool is_disputed_ = false;
   LensVector stddevs_ = LensVector::Zero();
   std::string refusal_, proof_;
 };

@@ -30,6 +30,17 @@ TEST(CalibrationSearch, WithoutContradictionTheGivenCalibrationIsKept) {
   EXPECT_EQ(search.refusal(), "");
 }
 
+TEST(CalibrationSearch, WindowsThatContradictEachOtherNeedNotAgreeOnWhatIsWrong) {
+  CalibrationFindings dispute = findings(4, 1.05, 1);
+  dispute.disagreement = 4;
+  CalibrationSearch search(scene_calibration(), {});
+  EXPECT_TRUE(search.begins_anew(dispute));
+  EXPECT_TRUE(search.is_disputed());
+  CalibrationSearch agreed(scene_calibration(), {});
+  EXPECT_FALSE(agreed.begins_anew(findings(4, 1.05, 1)));
+  EXPECT_FALSE(agreed.is_disputed());
+}
+
 TEST(CalibrationSearch, ABetterOneIsAcceptedOnceItStaysAndExplainsTheSameFramesBetter) {
   CalibrationSearch search(scene_calibration(), {});
   ASSERT_TRUE(search.begins_anew(findings(20, 1.04, 1)));
@@ -67,6 +78,17 @@ TEST(CalibrationSearch, APlainContradictionNeedsLessProof) {
   EXPECT_FALSE(is_accepted(13, 1.0));
   EXPECT_TRUE(is_accepted(20, 1.0)) << "a window makes up for a wrong focal length";
   EXPECT_FALSE(is_accepted(40, 1.01)) << "it has become worse";
+}
+
+TEST(CalibrationSearch, ABetterOneThatIsStillContradictedIsNotTakenForRight) {
+  SelfCalibrationSettings settings;
+  settings.passes = 2;
+  for (const double left : {20, 8}) {
+    CalibrationSearch search(scene_calibration(), settings);
+    ASSERT_TRUE(search.begins_anew(findings(30, 1.04, 1)));
+    search.begins_anew(findings(left, 1.06, 0.9));
+    EXPECT_EQ(search.is_corrected(), left < 12) << search.refusal();
+  }
 }
 
 TEST(CalibrationSearch, AGuessIsLeftWithoutProof) {

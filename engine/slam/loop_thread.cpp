@@ -67,6 +67,18 @@ KnownLoops LoopThread::known() {
   return known_;
 }
 
+std::vector<std::int64_t> LoopThread::newly_forgotten() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(forgotten_, {});
+}
+
+void LoopThread::note_forgotten() {
+  const MapKeyframe& newest = closer_->map()[closer_->map().size() - 1];
+  if (!newest.is_forgotten) return;
+  const std::lock_guard lock(mutex_);
+  forgotten_.push_back(newest.frame_id);
+}
+
 void LoopThread::remember() {
   if (closer_->optimizations() == optimizations_known_) return;
   optimizations_known_ = closer_->optimizations();
@@ -88,6 +100,7 @@ void LoopThread::process(const std::stop_token& stop) {
     if (preprocessor_ != nullptr) unpack(*preprocessor_, *keyframe);
     closer_->add(keyframe->update, keyframe->corners, keyframe->frame->pyramid.levels.front(), keyframe->update.camera);
     remember();
+    note_forgotten();
     publish(closer_->correction());
     tell();
   }

@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -52,6 +53,9 @@ class LoopThread {
   /// At this moment, without waiting: it does depend on time.
   KnownLoops known();
 
+  /// Frame ids of keyframes that were forgotten since this was asked last; when they are is a matter of time.
+  std::vector<std::int64_t> newly_forgotten();
+
   /// Waits until all keyframes are done and closes their loops. To be called once, after the last one. Nothing if loop
   /// closing failed (which the log has heard): the odometry stands on its own.
   const LoopCloser* finish();
@@ -61,6 +65,8 @@ class LoopThread {
   void process(const std::stop_token& stop);
   /// Tells the observer what has changed since it was told last.
   void tell();
+  /// Keeps the newest keyframe for newly_forgotten(), if it was.
+  void note_forgotten();
   /// Keeps what an optimization has changed for known().
   void remember();
   /// Makes the correction after a keyframe known.
@@ -83,9 +89,10 @@ class LoopThread {
   std::condition_variable published_;
   KnownLoops known_;
   std::deque<Sim3d> corrections_;  ///< After each of the last keyframes that are done.
-  std::size_t added_ = 0;          ///< Keyframes handed over.
-  std::size_t done_ = 0;           ///< Keyframes that loop closing is through with.
-  bool ended_ = false;             ///< Nothing will be published any more.
+  std::vector<std::int64_t> forgotten_;
+  std::size_t added_ = 0;  ///< Keyframes handed over.
+  std::size_t done_ = 0;   ///< Keyframes that loop closing is through with.
+  bool ended_ = false;     ///< Nothing will be published any more.
   std::jthread thread_;
 };
 

@@ -151,11 +151,21 @@ void Pipeline::finish_keyframe(FinishedKeyframe&& keyframe) {
   result_.keyframes.back().constraints.clear();
   if (!loops_) return;
   loops_->add(std::move(keyframe));
+  forget_points(loops_->newly_forgotten());
+}
+
+void Pipeline::forget_points(const std::vector<std::int64_t>& keyframes) {
+  for (const std::int64_t id : keyframes) {
+    const auto found = std::find_if(result_.keyframes.rbegin(), result_.keyframes.rend(),
+                                    [id](const KeyframeUpdate& keyframe) { return keyframe.frame_id == id; });
+    if (found != result_.keyframes.rend()) found->points = {};
+  }
 }
 
 void Pipeline::close_loops() {
   if (!loops_) return;
   const LoopCloser* closer = loops_->finish();
+  forget_points(loops_->newly_forgotten());
   if (closer == nullptr) return;
   add_times(closer->times(), result_.stage_times);
   result_.loops = closer->loops();

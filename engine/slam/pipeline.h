@@ -71,6 +71,8 @@ class Pipeline {
   void finish_keyframe(FinishedKeyframe&& keyframe);
   /// Goes on with the second map if it is better than the first.
   void choose_map();
+  /// Keyframes whose place others show as well keep nothing but their poses.
+  void forget_points(const std::vector<std::int64_t>& keyframes);
   /// Takes over what the revision has decided.
   void apply(RevisedStart&& revised);
   /// Tells the observer, if there is one.

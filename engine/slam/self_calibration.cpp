@@ -76,7 +76,7 @@ double SelfCalibration::deviations(const LensEstimate& better) const {
 
 LensFinding SelfCalibration::finding() const {
   const LensEstimate lens = estimate();
-  LensFinding finding{deviations(lens), calibration_, lens.stddevs};
+  LensFinding finding{deviations(lens), calibration_, lens.stddevs, lens.overdispersion};
   finding.better.camera = lens.camera;
   if (finding.better.rectification.mode == RectificationMode::kNone)
     finding.better.rectification.mode = RectificationMode::kCrop;

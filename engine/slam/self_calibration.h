@@ -18,6 +18,8 @@ struct LensFinding {
   Calibration better;
   /// How well that lens is known: fx, fy, cx, cy [px], the first two coefficients, readout [ms].
   LensVector stddevs = LensVector::Zero();
+  /// Squared distance of the middle window from what all of them say together, in units of its own variance.
+  double disagreement = 1;
 };
 
 class SelfCalibration {

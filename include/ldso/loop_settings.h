@@ -362,6 +362,24 @@ struct PoseGraphSettings {
   }
 };
 
+/// Keyframes that show only what many visits before have shown are forgotten: the map of a camera that stays in one
+/// place stops to grow.
+struct LoopCullingSettings {
+  int visits = 4;
+  double min_share = 0.8;
+
+  static constexpr auto fields() {
+    using S = LoopCullingSettings;
+    return std::tuple{
+        field("visits", &S::visits,
+              "Visits of a place of which keyframes are kept with their points; the poses of later ones stay. 0: all.",
+              in_range(0, 1000000)),
+        field("min_share", &S::min_share, "Of both views that two keyframes of one place see in common, at least.",
+              in_range(0, 1)),
+    };
+  }
+};
+
 /// Loop closing (LDSO III-C, III-D).
 struct LoopSettings {
   bool enabled = true;
@@ -386,6 +404,7 @@ struct LoopSettings {
   LoopDriftSettings drift;
   LoopConfirmationSettings confirmation;
   PoseGraphSettings graph;
+  LoopCullingSettings culling;
 
   static constexpr auto fields() {
     using S = LoopSettings;
@@ -421,6 +440,7 @@ struct LoopSettings {
         field("drift", &S::drift, "What drift can explain, and how large it is.", kExpert),
         field("confirmation", &S::confirmation, "When a second keyframe has to show the same.", kExpert),
         field("graph", &S::graph, "The pose graph: when it is optimized, and how robustly (LDSO III-D).", kExpert),
+        field("culling", &S::culling, "Keyframes that show only what many visits before have shown.", kExpert),
     };
   }
 };

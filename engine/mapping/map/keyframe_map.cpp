@@ -67,6 +67,11 @@ void KeyframeMap::forget_depthless(int index) {
   features.shrink_to_fit();
 }
 
+void KeyframeMap::forget(int index) {
+  keyframes_[index].features = {};
+  keyframes_[index].is_forgotten = true;
+}
+
 std::optional<int> KeyframeMap::find(std::int64_t frame_id) const {
   const auto it = index_of_.find(frame_id);
   if (it == index_of_.end()) return std::nullopt;

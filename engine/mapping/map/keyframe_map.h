@@ -33,6 +33,7 @@ struct MapKeyframe {
   std::vector<MapFeature> features;   ///< Described corners.
   std::vector<Neighbour> neighbours;  ///< In the order in which both had left the window.
   double median_idepth = 0;           ///< Of the features with depth [1 / map unit]; 0 if there are none.
+  bool is_forgotten = false;          ///< Others show the same: of this one only its place is known any more.
 };
 
 /// The odometry's way from one keyframe to another.
@@ -57,6 +58,9 @@ class KeyframeMap {
 
   /// Forgets the features of keyframe `index` that have no depth: nothing can be learned from a match with them.
   void forget_depthless(int index);
+
+  /// Forgets all that keyframe `index` shows; its place stays.
+  void forget(int index);
 
   int size() const { return static_cast<int>(keyframes_.size()); }
   const MapKeyframe& operator[](int index) const { return keyframes_[index]; }

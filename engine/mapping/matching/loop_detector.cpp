@@ -37,7 +37,6 @@ std::vector<LoopCandidate> LoopDetector::detect(const KeyframeMap& map, const Bo
   const double neighbour_score = last_words_.empty() ? 0 : score(words, last_words_);
   const double least = std::max(settings_.min_score, settings_.relative_score * neighbour_score);
   std::erase_if(results, [&](const PlaceCandidate& result) { return result.score < least; });
-  database_.add(newest, words);
   last_words_ = words;
   std::vector<LoopCandidate> candidates = group(map, results);
   if (candidates.size() > static_cast<std::size_t>(max_candidates_)) {

@@ -26,8 +26,11 @@ class LoopDetector {
       : settings_(settings.detection), max_candidates_(settings.max_candidates), database_(word_count) {}
 
   /// Candidates for the newest keyframe of `map`, whose words are given: keyframes that shared a window count as one
-  /// place; best place first. The keyframe then enters the database, whatever came of it.
+  /// place; best place first.
   std::vector<LoopCandidate> detect(const KeyframeMap& map, const BowVector& words);
+
+  /// From now on keyframe `index` may be a candidate. In rising order.
+  void add(int index, const BowVector& words) { database_.add(index, words); }
 
   /// Bytes held by the database.
   std::size_t memory_bytes() const { return database_.memory_bytes(); }

@@ -39,7 +39,9 @@ class LoopDetectorTest : public testing::Test {
     for (int k = 1; k <= 3; ++k) also_linked_to.push_back(map_.size() + k);
     for (const int other : also_linked_to) update.constraints.push_back({other, SE3d(), Matrix7d::Identity()});
     map_.add(update, {});
-    return detector.detect(map_, words);
+    std::vector<LoopCandidate> candidates = detector.detect(map_, words);
+    detector.add(map_.size() - 1, words);
+    return candidates;
   }
 
   LoopSettings settings_;

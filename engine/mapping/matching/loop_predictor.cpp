@@ -50,7 +50,7 @@ std::optional<KnownLoop> best_view(const KeyframeMap& map, const Prediction& pre
   std::optional<KnownLoop> best;
   double most = settings.min_share;
   for (int i = 0; i <= newest; ++i) {
-    if (map[i].segment != prediction.segment) continue;
+    if (map[i].segment != prediction.segment || map[i].is_forgotten) continue;
     const Sim3d S_world_keyframe = prediction.S_world_keyframe(i);
     if (!((prediction.S_current_world * S_world_keyframe.translation()).norm() <= far)) continue;
     if (!(map[i].median_idepth > 0) || std::binary_search(excluded.begin(), excluded.end(), i)) continue;
