@@ -45,7 +45,8 @@ ROOMS = {
     "io/images": ["io/text", "image"],
     "io/calibration": ["io/images"],
     "io/maps": ["io/text", "geometry"],
-    "io/datasets": ["io/calibration", "io/maps"],
+    "io/bags": ["io/calibration"],
+    "io/datasets": ["io/bags", "io/maps"],
     # tools
     "simulation/rendering": ["image"],
     "simulation/worlds": ["simulation/rendering", "io/datasets"],
@@ -83,6 +84,7 @@ ROOMS = {
 LIBRARIES = {
     r"opencv2/": {"io", "camera", "doctor", "place", ""},
     r"zip\.h": {"io", "simulation"},
+    r"(bzlib|lz4frame|sqlite3|zstd)\.h": {"io"},
     r"yaml-cpp/": {"io", "simulation"},
     r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "doctor",
                     "viewer"},
