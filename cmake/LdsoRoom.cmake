@@ -3,15 +3,17 @@
 # .cpp files of the folder are its sources.
 
 # ldso_add_room(<name> [COLD] [DIR folder] [PRECOMPILE header] [EXCLUDE patterns...] [DEPENDS rooms...] [LINK targets...]
-#   [PRIVATE_LINK targets...] [TEST_SOURCES files...] [TEST_LINK targets...])
+#   [PRIVATE_LINK targets...] [TEST_SOURCES files...] [TEST_LINK targets...] [LONG_TESTS patterns...])
 #     COLD          nothing in it takes time: it is compiled fast rather than well
 #     DIR           folder of the room below the current one (default: its name)
 #     PRECOMPILE    header of cmake/ that is parsed once for it (default: precompiled.h)
 #     EXCLUDE       regular expressions of files that are not built here
 #     TEST_SOURCES  helpers of other rooms' tests that this room's tests use
+#     LONG_TESTS    tests (patterns of GoogleTest) that take many seconds: left out by scripts/test.sh --short
 # LDSO_PART, LDSO_INCLUDE_ROOT: the part, and the folder that its includes are relative to.
 function(ldso_add_room name)
-  cmake_parse_arguments(ROOM "COLD" "DIR;PRECOMPILE" "EXCLUDE;DEPENDS;LINK;PRIVATE_LINK;TEST_SOURCES;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(ROOM "COLD" "DIR;PRECOMPILE" "EXCLUDE;DEPENDS;LINK;PRIVATE_LINK;TEST_SOURCES;TEST_LINK;LONG_TESTS"
+    ${ARGN})
   if(NOT DEFINED ROOM_DIR)
     set(ROOM_DIR ${name})
   endif()
@@ -51,6 +53,17 @@ function(ldso_add_room name)
     # Tests are compiled once and run once: they need not be fast.
     target_compile_options(${name}_test PRIVATE $<$<CONFIG:Release>:-O1>)
     ldso_precompile(${name}_test precompiled_test.h)
-    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}/")
+    ldso_discover_tests(${name}_test ${name} ${ROOM_LONG_TESTS})
+  endif()
+endfunction()
+
+# ldso_discover_tests(<target> <prefix> [patterns of long tests...]): each test of a GoogleTest program is one of ctest's,
+# called prefix/Suite.Name; long ones are labelled so.
+function(ldso_discover_tests target prefix)
+  list(JOIN ARGN ":" long)
+  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${prefix}/" TEST_FILTER "-${long}")
+  if(ARGN)
+    gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${prefix}/" TEST_FILTER "${long}"
+      PROPERTIES LABELS long)
   endif()
 endfunction()

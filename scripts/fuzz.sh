@@ -9,7 +9,7 @@
 #     --no-build    the targets are there already
 #     TARGET        as the files in fuzz/ are called; all if none is named
 # An input that a target does not survive is saved in out/fuzz/findings/TARGET, the output in out/fuzz/TARGET.log. The
-# exit code is 1 if there was one. To see it again: build/fuzz/fuzz/fuzz_TARGET FILE.
+# exit code is 1 if there was one. To see it again: build/clang/fuzz/fuzz_TARGET FILE.
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -30,10 +30,10 @@ while (($# > 0)); do
   esac
 done
 
-if ((must_build)); then configure fuzz; fi
+if ((must_build)); then configure clang; fi
 # Those that can be built here: without Node there is no server.
-if ((${#targets[@]} == 0)); then mapfile -t targets <build/fuzz/fuzz/targets.txt; fi
-if ((must_build)); then build fuzz --target "${targets[@]/#/fuzz_}"; fi
+if ((${#targets[@]} == 0)); then mapfile -t targets <build/clang/fuzz/targets.txt; fi
+if ((must_build)); then build clang --target "${targets[@]/#/fuzz_}"; fi
 
 # Nothing that is tried needs more memory than this (MB): what takes more believes what a file says of itself.
 memory=(-malloc_limit_mb=256 -rss_limit_mb=2560)
@@ -47,7 +47,7 @@ fuzz() {
   mkdir -p "$corpus/$name" "out/fuzz/findings/$name"
   [[ -f fuzz/$name.dict ]] && options+=("-dict=fuzz/$name.dict")
   local status=0
-  "build/fuzz/fuzz/fuzz_$name" "${options[@]}" -max_total_time="$seconds" -runs="$runs" -print_final_stats=1 \
+  "build/clang/fuzz/fuzz_$name" "${options[@]}" -max_total_time="$seconds" -runs="$runs" -print_final_stats=1 \
     -artifact_prefix="out/fuzz/findings/$name/" "$corpus/$name" "fuzz/seeds/$name" >"$log" 2>&1 || status=$?
   printf '%-16s %12s executions, %6s/s%s\n' "$name" \
     "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \

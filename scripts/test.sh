@@ -3,7 +3,7 @@
 #
 #   scripts/test.sh [--preset P] [--rooms "NAMES"] [--short] [--build-only] [options for ctest, e.g. -R image]
 #     --preset P      release (the default), debug, ci: warnings are errors, asan: address and undefined-behaviour
-#                     sanitizer, clang: both of it by Clang, tsan: thread sanitizer
+#                     sanitizer, clang: both of it by Clang, tsan, clang-tsan: thread sanitizer
 #     --rooms "NAMES" only the tests of these rooms, e.g. "util io"; nothing else is built
 #     --short         without the tests that take long: whole sequences with bounds on accuracy, browsers
 #     --build-only    builds and runs nothing
@@ -46,7 +46,7 @@ if ((build_only)); then exit 0; fi
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}
 export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1:suppressions=\"$PWD/scripts/tsan.supp\"}
 wrapper=()
-if [[ $preset == tsan ]] && setarch "$(uname -m)" -R true 2>/dev/null; then
+if [[ $preset == *tsan ]] && setarch "$(uname -m)" -R true 2>/dev/null; then
   wrapper=(setarch "$(uname -m)" -R)
 fi
 exec "${wrapper[@]}" ctest --test-dir "build/$preset" --parallel "${LDSO_TEST_JOBS:-2}" --output-on-failure \
