@@ -26,16 +26,16 @@ configure() {
 # A machine without what only files and the program need: pkg-config and find_package do not find it.
 cat >"$work/pkg-config" <<'SCRIPT'
 #!/bin/sh
-case "$*" in *libzip*) exit 1 ;; esac
+case "$*" in *libzip* | *liblz4* | *sqlite3* | *libzstd*) exit 1 ;; esac
 exec pkg-config "$@"
 SCRIPT
 chmod +x "$work/pkg-config"
 without=(-DPKG_CONFIG_EXECUTABLE="$work/pkg-config")
-for package in yaml-cpp nlohmann_json Boost CLI11 GTest benchmark; do
+for package in yaml-cpp nlohmann_json BZip2 Boost CLI11 GTest benchmark; do
   without+=(-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON)
 done
 # What the engine must not be linked with, even by way of others.
-foreign='opencv_(imgcodecs|videoio|highgui)|yaml|libzip|boost|libav'
+foreign='opencv_(imgcodecs|videoio|highgui)|yaml|libzip|lz4|sqlite|zstd|bz2|boost|libav'
 # What it is linked with: the standard library, Highway, the parts of OpenCV (features2d brings flann), and Ceres with
 # what that brings (its log, sparse and dense linear algebra).
 standard='stdc\+\+|m|gcc_s|c|pthread|[aut]san|ubsan'

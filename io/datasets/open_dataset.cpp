@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "io/datasets/bag_dataset.h"
 #include "io/datasets/euroc_dataset.h"
 #include "io/datasets/image_folder_dataset.h"
 #include "io/datasets/kitti_dataset.h"
@@ -30,7 +31,8 @@ struct Format {
 };
 
 /// In the order in which they are tried: what is most particular comes first.
-constexpr std::array<Format, 6> kFormats{{
+constexpr std::array<Format, 7> kFormats{{
+    {"ROS bag: a file *.bag, *.mcap or *.db3, or a folder with its metadata.yaml", is_bag, open_bag_dataset},
     {"EuRoC: mav0/cam0/data.csv", is_euroc, open_euroc},
     {"TUM RGB-D: rgb.txt", is_tum_rgbd, open_tum_rgbd},
     {"KITTI: image_0/ or image_2/", is_kitti, open_kitti},
@@ -53,10 +55,10 @@ std::string looked_for() {
   return text;
 }
 
-/// Whether a folder or file is one of the formats, videos by their names alone.
+/// Whether a folder or file is one of the formats, bags and videos by their names alone.
 bool looks_like_sequence(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return has_video_extension(path);
+  if (!fs::is_directory(path, error)) return has_bag_extension(path) || has_video_extension(path);
   return std::any_of(kFormats.begin(), kFormats.end(), [&](const Format& format) { return format.recognizes(path); });
 }
 
@@ -84,7 +86,7 @@ std::string remedy_for(const fs::path& folder) {
   std::string names;
   for (std::size_t i = 0; i < std::min(found.size(), kMostNamed); ++i) names += (i > 0 ? ", " : "") + found[i];
   if (found.size() > kMostNamed) names += ", ...";
-  return "there are images or videos in " + names +
+  return "there are images, videos or bags in " + names +
          ": give one of these, with the camera's calibration by --calib if it lies elsewhere, and --fps";
 }
 
@@ -93,6 +95,8 @@ std::unique_ptr<Dataset> open_whole(const fs::path& path, const DatasetOptions& 
   if (!fs::exists(path, error)) throw Error(path.string(), "there is no such file or folder", "check the path");
   if (fs::is_directory(path, error) && fs::is_empty(path, error))
     throw Error(path.string(), "the folder is empty", looked_for());
+  if (!options.topic.empty() && !is_bag(path))
+    throw Error(path.string(), "is no ROS bag, but --topic is given", "leave --topic away");
   for (const Format& format : kFormats) {
     if (format.recognizes(path)) return format.open(path, options);
   }

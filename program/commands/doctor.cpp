@@ -95,7 +95,7 @@ void run_doctor(const DoctorArguments& a, int& exit_code) {
 void add_doctor_command(CLI::App& app, int& exit_code) {
   const auto a = std::make_shared<DoctorArguments>();
   CLI::App* command = app.add_subcommand("doctor", "Say what is wrong with a sequence, and what to do");
-  command->add_option("sequence", a->sequence, "Folder or video file, whose format is recognized")->required();
+  command->add_option("sequence", a->sequence, "Folder, video file or ROS bag, whose format is recognized")->required();
   add_dataset_options(*command, a->dataset);
   command
       ->add_option("--trial", a->trial,

@@ -51,7 +51,7 @@ struct RunArguments {
 void add_options(CLI::App& command, RunArguments& a) {
   command
       .add_option("sequence", a.sequence,
-                  "Folder or video file, whose format is recognized; or camera:0, the first camera of this "
+                  "Folder, video file or ROS bag, whose format is recognized; or camera:0, the first camera of this "
                   "machine (camera:/dev/video2, camera:rtsp://... name others)")
       ->required();
   command.add_option("-o,--out", a.out, "Folder for the results; it is created")->required();
@@ -255,6 +255,7 @@ int run(const RunArguments& a) {
   const Dataset& dataset = *input.dataset;
   check_scale(a, input);
   OutputFolder out = prepare_output_folder(a.out);
+  if (!a.quiet) std::cout << "calibration    " << dataset.calibration().description << std::endl;
 
   LiveRun live(live_options(a, input));
   if (a.view) announce_page(live.url());

@@ -59,6 +59,7 @@ DatasetOptions options_of(const Json& sequence) {
   if (sequence.contains("fps") && !sequence["fps"].is_null()) options.fps = sequence["fps"].get<double>();
   if (sequence.contains("mask") && !sequence["mask"].is_null()) options.mask = sequence["mask"].get<std::string>();
   if (sequence.contains("pattern")) options.pattern = sequence["pattern"].get<std::string>();
+  if (sequence.contains("topic")) options.topic = sequence["topic"].get<std::string>();
   return options;
 }
 

@@ -96,6 +96,7 @@ Json sequence_json(const RunSummary& summary, const Dataset& dataset) {
           {"calib", options.calibration_file ? Json(options.calibration_file->string()) : Json()},
           {"fps", options.fps ? Json(*options.fps) : Json()},
           {"pattern", options.pattern},
+          {"topic", options.topic},
           {"mask", options.mask ? Json(options.mask->string()) : Json()},
           {"camera", describe(calibration.camera, calibration.rectification)},
           {"calibration", calibration.description},

@@ -18,6 +18,9 @@ void add_dataset_options(CLI::App& command, DatasetOptions& options) {
       ->transform(frame_rate());
   command.add_option("--pattern", options.pattern,
                      "Which images of a folder, e.g. frame-%d.color.png (%d: a number, *: any text)");
+  command.add_option(
+      "--topic", options.topic,
+      "Which images of a ROS bag, e.g. /camera/image_raw; without, those of the only topic that has any");
   command.add_option("--mask", options.mask,
                      "Image, or folder with one for each image, that is white where nothing is to be used; none: not "
                      "even black borders are masked");

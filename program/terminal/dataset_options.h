@@ -7,7 +7,8 @@
 
 namespace ldso {
 
-/// --start, --end, --stride, --reverse, --calib, --fps and --pattern. `options` must outlive the parsing.
+/// --start, --end, --stride, --reverse, --calib, --fps, --pattern, --topic and --mask. `options` must outlive the
+/// parsing.
 void add_dataset_options(CLI::App& command, DatasetOptions& options);
 
 }  // namespace ldso

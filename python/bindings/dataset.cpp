@@ -49,9 +49,11 @@ class SerialDataset final : public Dataset {
 std::shared_ptr<Dataset> open_sequence_at(const std::filesystem::path& path, int start, std::optional<int> end,
                                           int stride, bool reverse,
                                           const std::optional<std::filesystem::path>& calibration,
-                                          std::optional<double> fps, const std::string& pattern) {
+                                          std::optional<double> fps, const std::string& pattern,
+                                          const std::string& topic) {
   const py::gil_scoped_release no_gil;  // A video is looked through.
-  return std::make_shared<SerialDataset>(open_dataset(path, {start, end, stride, reverse, calibration, fps, pattern}));
+  return std::make_shared<SerialDataset>(
+      open_dataset(path, {start, end, stride, reverse, calibration, fps, pattern, topic}));
 }
 
 int checked_index(const Dataset& dataset, int index) {
@@ -138,9 +140,9 @@ void bind_dataset(py::module_& module) {
         return "<ldso.Dataset " + d.format_name() + ", " + std::to_string(d.size()) + " frames>";
       });
   module.def("open", &open_sequence_at, "path"_a, py::kw_only(), "start"_a = 0, "end"_a = py::none(), "stride"_a = 1,
-             "reverse"_a = false, "calibration"_a = py::none(), "fps"_a = py::none(), "pattern"_a = "",
+             "reverse"_a = false, "calibration"_a = py::none(), "fps"_a = py::none(), "pattern"_a = "", "topic"_a = "",
              "Open a sequence whose format is recognized: TUM-mono, KITTI, EuRoC, TUM RGB-D, a folder of images, a "
-             "video. The options are those of `ldso run`; calibration is the path of a file.");
+             "video, a ROS bag. The options are those of `ldso run`; calibration is the path of a file.");
 }
 
 }  // namespace ldso::python

@@ -139,6 +139,7 @@ DatasetOptions options_from(py::dict& given) {
   take("reverse", options.reverse);
   take("fps", options.fps);
   take("pattern", options.pattern);
+  take("topic", options.topic);
   return options;
 }
 
@@ -228,7 +229,7 @@ void bind_run(py::module_& module) {
       "files of `ldso run -o`. calibration: the path of one that is used instead of the sequence's. progress(done, "
       "count) is called after each frame; what it raises ends the run, and what there is is saved. log and observer: "
       "as "
-      "of Slam. Further keywords: start, end, stride, reverse, fps, pattern of a path, and settings (threads=1, "
+      "of Slam. Further keywords: start, end, stride, reverse, fps, pattern, topic of a path, and settings (threads=1, "
       "loops={\"enabled\": False}). Returns a SequenceRun.");
 }
 

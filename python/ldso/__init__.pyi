@@ -208,7 +208,8 @@ class SimulatedSequence:
     def __getitem__(self, index: int) -> Frame: ...
 
 def open(path: Path, *, start: int = 0, end: Optional[int] = None, stride: int = 1, reverse: bool = False,
-         calibration: Optional[Path] = None, fps: Optional[float] = None, pattern: str = "") -> Dataset: ...
+         calibration: Optional[Path] = None, fps: Optional[float] = None, pattern: str = "",
+         topic: str = "") -> Dataset: ...
 def run(source: Union[Path, Dataset, _Images], out: Optional[Path] = None, *,
         calibration: Union[Path, Calibration, None] = None, settings: SettingsLike = None,
         progress: Optional[Callable[[int, int], Any]] = None, log: Optional[Log] = None, observer: Any = None,

@@ -42,6 +42,8 @@ struct DatasetOptions {
   /// Names of the images that are used, of several kinds in one folder: `%d` stands for a number, `*` for any text, as
   /// in "frame-%d.color.png". Empty: all, which have to be of one kind.
   std::string pattern = {};
+  /// Topic of a ROS bag whose images are used, "/camera/image_raw". Empty: the only one that has images.
+  std::string topic = {};
   /// What is not to be used, white: an image for all frames, or a folder with one for each. "none": nothing is masked,
   /// not even the black surroundings of a round image, which are otherwise.
   std::optional<std::filesystem::path> mask = std::nullopt;

@@ -1,0 +1,2 @@
+#pragma once
+#include "ros2_stand_in.h"
