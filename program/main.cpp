@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   ldso::add_run_command(app, exit_code);
   ldso::add_doctor_command(app, exit_code);
+  ldso::add_calibrate_command(app);
   ldso::add_resume_command(app);
   ldso::add_view_command(app);
   ldso::add_export_command(app);

@@ -65,6 +65,9 @@ ROOMS = {
     "viewer/recording": ["viewer/map"],
     "viewer/server": ["viewer/map"],
     "viewer": ["viewer/recording", "viewer/server"],
+    "calibration/board": ["io/images"],
+    "calibration/lens": ["calibration/board", "io/datasets"],
+    "calibration/photometric": ["calibration/lens"],
     "scaling": ["slam", "io/datasets"],
     "terminal": ["running", "scaling"],
     "results": ["running", "scaling", "viewer", "evaluation", "io/settings"],
@@ -72,7 +75,7 @@ ROOMS = {
     "report": ["results"],
     "output": ["report", "imagery", "mapping/map", "experiment/jobs"],
     "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
-    "commands": ["commands/experiment", "doctor"],
+    "commands": ["commands/experiment", "doctor", "calibration/lens", "calibration/photometric"],
     "": ["commands"],  # program/main.cpp
     # c
     "interface": ["sequence", "io/datasets", "io/settings"],
@@ -82,10 +85,10 @@ ROOMS = {
 
 # Libraries that stay inside rooms.
 LIBRARIES = {
-    r"opencv2/": {"io", "camera", "doctor", "place", ""},
+    r"opencv2/": {"io", "camera", "calibration", "doctor", "place", ""},
     r"zip\.h": {"io", "simulation"},
     r"yaml-cpp/": {"io", "simulation"},
-    r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "doctor",
+    r"nlohmann/": {"io", "evaluation", "experiment", "results", "report", "output", "commands", "doctor", "calibration",
                     "viewer"},
     r"CLI/": {"commands", "results", "terminal", ""},
     r"boost/": {"viewer"},

@@ -8,7 +8,7 @@ export LC_ALL=C
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 fail() { echo "install_packages.sh: $*" >&2; exit 1; }
-(($# > 0)) || fail "which sections of packages.txt? build, test, viewer, browser, colmap or check"
+(($# > 0)) || fail "which sections of packages.txt? build, python, test, viewer, browser, colmap, check, package, docs or spelling"
 [[ ${LDSO_SKIP_PACKAGES:-0} == 1 ]] && exit 0
 
 # packages_of SECTION: its names, one a line.

@@ -24,8 +24,12 @@ bool is_there(const fs::path& path) {
 }
 
 Calibration read_calibration(const fs::path& folder, const DatasetOptions& options) {
-  const fs::path camera = options.calibration_file.value_or(find_calibration(folder));
   Calibration calibration;
+  if (options.uncalibrated) {
+    calibration.source = CameraSource::kNone;
+    return calibration;
+  }
+  const fs::path camera = options.calibration_file.value_or(find_calibration(folder));
   if (options.calibration_file || is_there(camera)) {
     calibration = read_camera_calibration(camera);
   } else {

@@ -74,7 +74,8 @@ class VideoDataset final : public Dataset {
   Calibration read_calibration(const DatasetOptions& options) {
     std::error_code error;
     const fs::path camera = options.calibration_file.value_or(find_calibration(path_.parent_path()));
-    if (options.calibration_file || fs::exists(camera, error)) return read_camera_calibration(camera);
+    const bool has_one = options.calibration_file || fs::exists(camera, error);
+    if (has_one && !options.uncalibrated) return read_camera_calibration(camera);
     const cv::Mat first = reader_.read(0);
     return guess_calibration(first.cols, first.rows, std::nullopt);
   }

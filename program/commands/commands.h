@@ -18,6 +18,9 @@ void add_run_command(CLI::App& app, int& exit_code);
 /// `ldso doctor SEQUENCE`: what is wrong with a sequence, and what to do. Ends with 2 if results will suffer from it, 1
 /// if it cannot be run.
 void add_doctor_command(CLI::App& app, int& exit_code);
+/// `ldso calibrate SEQUENCE --board BOARD -o OUT`: camera.txt from images of a board; `ldso calibrate board`: the
+/// board.
+void add_calibrate_command(CLI::App& app);
 /// `ldso resume OUT`: results of a run that was cut off, from its last checkpoint.
 void add_resume_command(CLI::App& app);
 /// `ldso view OUT`: a finished run in the browser.

@@ -39,6 +39,8 @@ struct DatasetOptions {
   bool reverse = false;
   /// In camera.txt format; used instead of the sequence's own.
   std::optional<std::filesystem::path> calibration_file = std::nullopt;
+  /// Of image folders and videos: leave calibrations beside the images unread, since one is to be made.
+  bool uncalibrated = false;
   /// Frame rate of sequences without times [Hz].
   std::optional<double> fps = std::nullopt;
   /// Names of the images that are used, of several kinds in one folder: `%d` stands for a number, `*` for any text, as
