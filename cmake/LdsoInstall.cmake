@@ -39,7 +39,7 @@ if(TARGET ldso_io)
 endif()
 if(TARGET ldso_output)
   ldso_install_targets(output ldsoViewerTargets ldso_viewer)
-  ldso_install_targets(output ldsoOutputTargets ldso_output ldso_report ldso_results ldso_scaling ldso_running
+  ldso_install_targets(output ldsoOutputTargets ldso_output ldso_imagery ldso_report ldso_results ldso_scaling ldso_running
     ldso_camera ldso_evaluation ldso_experiment)
   install(FILES ${PROJECT_SOURCE_DIR}/include/ldso/viewer.h ${PROJECT_SOURCE_DIR}/include/ldso/results_folder.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ldso COMPONENT output)

@@ -18,7 +18,8 @@ LDSO_FUZZ_TARGET(point_cloud) {
   write_ply(path, *points);
   const std::vector<PlyPoint> again = read_ply(path);
   const auto same = [](const PlyPoint& a, const PlyPoint& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z && a.intensity == b.intensity && a.idepth_stddev == b.idepth_stddev;
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.intensity == b.intensity && a.color == b.color &&
+           a.idepth_stddev == b.idepth_stddev;
   };
   fuzz::expect(std::equal(points->begin(), points->end(), again.begin(), again.end(), same),
                "a written cloud reads back as it was");

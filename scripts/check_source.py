@@ -72,8 +72,9 @@ ROOMS = {
     "scaling": ["slam", "io/datasets"],
     "terminal": ["running", "scaling"],
     "results": ["running", "scaling", "viewer", "evaluation", "io/settings"],
+    "imagery": ["viewer/recording"],
     "report": ["results"],
-    "output": ["report", "experiment/jobs"],
+    "output": ["report", "imagery", "mapping/map", "experiment/jobs"],
     "commands/experiment": ["output", "terminal", "experiment/summary", "experiment/plan", "simulation/sequences"],
     "commands": ["commands/experiment", "doctor", "calibration/lens", "calibration/photometric"],
     "": ["commands"],  # program/main.cpp

@@ -113,5 +113,7 @@ expect_output '^LOSS +overall \+(19|20|21)\.'
 expect_exit 0 experiment compare "$a/summary/results.json" "$WORK/worse" --max-loss 25
 expect_exit 3 experiment compare "$a/summary/results.csv" "$WORK/worse" --max-sequence-loss 10
 expect_output '^LOSS +V1_01, random: \+(19|20|21)\.'
+expect_exit 1 experiment compare "$WORK/neither" "$WORK/nowhere"
+expect_output "neither, .*/nowhere: there is no such folder or file"
 expect_exit 1 experiment compare "$a" "$WORK/nowhere"
 expect_output '^error: .*nowhere: there is no such folder or file'

@@ -20,6 +20,15 @@ echo "ATE in % of the path: known $(percent "$WORK/known"), ignored $(percent "$
 expect_true "known, it does no harm" "$(percent "$WORK/known") < 0.1"
 expect_true "found, it does less than half of the harm" "2 * $(percent "$WORK/found") < $(percent "$WORK/ignored")"
 
+# Exported images are as with a global shutter: points are found where they should be, unlike in the original ones.
+for images in rectified original; do
+  expect_exit 0 export "$WORK/known" --format colmap --images "$images" -o "$WORK/$images"
+  sed -n '/ px from where it should be/p;/rolling shutter/p' "$WORK/log"
+  expect_output "rolling shutter of $READOUT.0 ms is $([[ $images == rectified ]] && echo undone || echo ignored)"
+done
+mean_error() { awk '!/^#/ { sum += $8; n++ } END { print sum / n }' "$1/colmap/sparse/0/points3D.txt"; }
+expect_true "the rolling shutter is undone" "2 * $(mean_error "$WORK/rectified") < $(mean_error "$WORK/original")"
+
 # An image that comes twice does not mean that the camera stood still.
 stutter_sequence "$SEQUENCE" "$WORK/stutter" 10 0.033333333
 expect_exit 0 run "$WORK/stutter" -o "$WORK/twice" --no-loops --calib "$WORK/true.txt"

@@ -51,7 +51,8 @@ Sample sample_at(double coordinate, int halvings, int input_size) {
   return {first, static_cast<float>(inside - first)};
 }
 
-RemapTable make_table(const VisibleRegion& region, const PinholeIntrinsics& output, int halvings) {
+RemapTable make_table(const VisibleRegion& region, const PinholeIntrinsics& output, int halvings,
+                      const Displacement& warp) {
   RemapTable table;
   table.width = output.width;
   table.height = output.height;
@@ -62,7 +63,8 @@ RemapTable make_table(const VisibleRegion& region, const PinholeIntrinsics& outp
   const int stride = region.input_width() >> halvings;
   for (int y = 0; y < output.height; ++y) {
     for (int x = 0; x < output.width; ++x) {
-      const std::optional<Eigen::Vector2d> pixel = region.pixel(plane_point(output, x, y));
+      const Eigen::Vector2d from = warp ? warp({x, y}) : Eigen::Vector2d(x, y);
+      const std::optional<Eigen::Vector2d> pixel = region.pixel(plane_point(output, from.x(), from.y()));
       if (!pixel) continue;
       const Sample column = sample_at(pixel->x(), halvings, region.input_width());
       const Sample row = sample_at(pixel->y(), halvings, region.input_height());
@@ -83,13 +85,16 @@ MaskedImage halve(ImageView<const float> image) {
 
 }  // namespace
 
-Rectifier::Rectifier(const CameraCalibration& camera, const Rectification& rectification) {
+Rectifier::Rectifier(const CameraCalibration& camera, const Rectification& rectification)
+    : Rectifier(camera, rectification, Displacement()) {}
+
+Rectifier::Rectifier(const CameraCalibration& camera, const Rectification& rectification, const Displacement& warp) {
   const VisibleRegion region(camera);
   output_camera_ = fit_pinhole(camera, rectification, region);
-  is_identity_ = same_camera(camera, output_camera_);
+  is_identity_ = !warp && same_camera(camera, output_camera_);
   if (is_identity_) return;
   halvings_ = count_halvings(region, output_camera_);
-  table_ = make_table(region, output_camera_, halvings_);
+  table_ = make_table(region, output_camera_, halvings_, warp);
 }
 
 void Rectifier::apply(ImageView<const float> input, ImageView<float> output) const {

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
+
 #include "image/remap_kernels.h"
 #include "ldso/calibration.h"
 #include "ldso/image.h"
 
 namespace ldso {
+
+/// Where a rectified image of a camera shows what an output pixel is to show.
+using Displacement = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 
 /// Resamples images of a camera with distortion to those of a pinhole camera, by a table made once.
 /// An output of less than half the input's resolution is taken from a halved input (2 x 2 means, repeatedly), so that
@@ -14,6 +20,9 @@ class Rectifier {
  public:
   /// Throws Error where the calibration or the request makes no sense; see fit_pinhole.
   Rectifier(const CameraCalibration& camera, const Rectification& rectification);
+
+  /// The same with what moves pixels beside the lens, as a rolling shutter does, undone in one interpolation.
+  Rectifier(const CameraCalibration& camera, const Rectification& rectification, const Displacement& warp);
 
   /// The camera of the rectified images.
   const PinholeIntrinsics& output_camera() const { return output_camera_; }

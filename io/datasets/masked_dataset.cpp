@@ -179,6 +179,8 @@ class MaskedDataset final : public Dataset {
     return frame;
   }
 
+  Image<Rgb> read_color(int index) const override { return sequence_->read_color(index); }
+
  private:
   const CameraCalibration& camera() const { return calibration().camera; }
 

@@ -46,6 +46,8 @@ class PlaybackDataset final : public Dataset {
     return frame;
   }
 
+  Image<Rgb> read_color(int index) const override { return sequence_->read_color(source(index)); }
+
  private:
   int source(int index) const { return frames_.at(static_cast<std::size_t>(index)); }
 

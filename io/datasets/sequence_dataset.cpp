@@ -116,6 +116,11 @@ class SequenceDataset final : public Dataset {
     return raw;
   }
 
+  Image<Rgb> read_color(int index) const override {
+    const std::string& name = entry(index).name;
+    return decode_color_image(sequence_.images->read(name), sequence_.images->describe(name), sequence_.bits);
+  }
+
  private:
   const FrameEntry& entry(int index) const { return sequence_.frames.at(static_cast<std::size_t>(index)); }
 

@@ -13,7 +13,7 @@
 #include "io/calibration/unused_photometry.h"
 #include "io/datasets/video_reader.h"
 #include "io/images/image_file.h"
-#include "io/images/opencv_grey.h"
+#include "io/images/opencv_images.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
@@ -67,6 +67,8 @@ class VideoDataset final : public Dataset {
     raw.grey = to_image(reader_.read(index));
     return raw;
   }
+
+  Image<Rgb> read_color(int index) const override { return to_rgb(reader_.read_color(index)); }
 
  private:
   Calibration read_calibration(const DatasetOptions& options) {

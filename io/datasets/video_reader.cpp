@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "io/images/opencv_grey.h"
+#include "io/images/opencv_images.h"
 #include "ldso/error.h"
 
 namespace ldso {
@@ -77,10 +77,16 @@ cv::Mat VideoReader::read(int index) {
   if (const auto kept = block_.find(index); kept != block_.end()) return kept->second;
   if (index >= next_) {
     block_.clear();
-    return decode_at(index);
+    return to_grey(decode_at(index));
   }
   fill_block(std::max(0, index - kBlock + 1), index);
   return block_.at(index);
+}
+
+cv::Mat VideoReader::read_color(int index) {
+  block_.clear();
+  if (index < next_) go_back_to(index);
+  return decode_at(index);
 }
 
 void VideoReader::reopen() {
@@ -97,7 +103,7 @@ void VideoReader::reopen() {
 void VideoReader::fill_block(int first, int last) {
   block_.clear();
   go_back_to(first);
-  for (int i = first; i <= last; ++i) block_[i] = decode_at(i);
+  for (int i = first; i <= last; ++i) block_[i] = to_grey(decode_at(i));
 }
 
 void VideoReader::go_back_to(int index) {
@@ -124,7 +130,7 @@ cv::Mat VideoReader::decode_at(int index) {
   cv::Mat frame;
   if (!succeeds([&] { return capture_.read(frame); }) || frame.empty()) fail(index);
   ++next_;
-  return to_grey(frame);
+  return frame;
 }
 
 bool VideoReader::grab() {

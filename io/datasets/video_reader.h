@@ -39,6 +39,9 @@ class VideoReader {
   /// Grey frame `index`, 8 bit. Throws Error if there is none.
   cv::Mat read(int index);
 
+  /// The same as it was decoded. Going backwards is slow: nothing is kept.
+  cv::Mat read_color(int index);
+
  private:
   void reopen();
   void fill_block(int first, int last);
@@ -46,6 +49,7 @@ class VideoReader {
   /// streams, not at all; otherwise decoding starts from the beginning.
   void go_back_to(int index);
   bool seek_before(int index);
+  /// As it was decoded; `index` is not before the next one.
   cv::Mat decode_at(int index);
   bool grab();
   [[noreturn]] void fail(int index) const;

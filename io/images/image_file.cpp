@@ -8,6 +8,7 @@
 
 #include "io/images/image_header.h"
 #include "io/images/image_truncation.h"
+#include "io/images/opencv_images.h"
 #include "io/text/text_file.h"
 #include "ldso/error.h"
 #include "util/out_of_memory.h"
@@ -24,7 +25,7 @@ std::string describe_image(const ImageHeader& header, const std::string& name) {
   return name + ", " + std::to_string(header.width) + "x" + std::to_string(header.height) + " pixels";
 }
 
-cv::Mat decode(std::span<const std::uint8_t> bytes, const std::string& name) {
+cv::Mat decode(std::span<const std::uint8_t> bytes, const std::string& name, int channels = cv::IMREAD_GRAYSCALE) {
   if (bytes.empty()) throw Error(name, "the image file is empty", "replace or remove it");
   if (is_truncated_image(bytes)) throw Error(name, "the image file is truncated", "copy it again or remove it");
   if (bytes.size() > kMostImageBytes) throw Error(name, "the image file is larger than 512 MB", "make it smaller");
@@ -34,7 +35,7 @@ cv::Mat decode(std::span<const std::uint8_t> bytes, const std::string& name) {
     // The constructor wants a mutable pointer; imdecode only reads.
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data()));
     // As stored: the rows of the sensor are what calibration and rolling shutter are about.
-    decoded = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+    decoded = cv::imdecode(buffer, channels | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& exception) {
     if (exception.code == cv::Error::StsNoMem) throw OutOfMemory("decoding " + describe_image(header, name));
     throw Error(name, "the image cannot be decoded (" + exception.err + ")", "replace or remove it");
@@ -93,6 +94,14 @@ Image<float> decode_grey_image(std::span<const std::uint8_t> bytes, const std::s
   if (decoded.depth() == CV_8U) return to_grey<std::uint8_t>(decoded, 1.0F);
   if (decoded.depth() == CV_16U)
     return to_grey<std::uint16_t>(decoded, static_cast<float>((1 << bits) - 1) / kLargestGreyLevel);
+  throw Error(name, "the image has neither 8 nor 16 bits a channel", "convert it to PNG");
+}
+
+Image<Rgb> decode_color_image(std::span<const std::uint8_t> bytes, const std::string& name, int bits) {
+  cv::Mat decoded = decode(bytes, name, cv::IMREAD_COLOR);
+  if (decoded.depth() == CV_16U)
+    decoded.convertTo(decoded, CV_8U, kLargestGreyLevel / static_cast<float>((1 << bits) - 1));
+  if (decoded.depth() == CV_8U) return to_rgb(decoded);
   throw Error(name, "the image has neither 8 nor 16 bits a channel", "convert it to PNG");
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,18 +8,20 @@
 #include <vector>
 
 #include "ldso/image.h"
+#include "ldso/rgb.h"
 
 namespace ldso {
 
 // Image files to and from plain buffers. The codecs are OpenCV's and stay inside the .cpp file.
-
-using Rgb = std::array<std::uint8_t, 3>;
 
 /// Decodes PNG, JPEG, PGM, TIFF, BMP, ... to grey levels in 0..255: 8-bit values exactly, 16-bit values divided by 257,
 /// colour by the BT.601 weights (0.299, 0.587, 0.114). Rows are those of the file, whatever EXIF asks viewers to turn.
 /// `name` is what messages call the image. Throws Error if the data are truncated or no image of 8 or 16 bit. Of 16-bit
 /// images whose camera has fewer bits, `bits` says how many are used: 2^bits - 1 becomes 255.
 Image<float> decode_grey_image(std::span<const std::uint8_t> bytes, const std::string& name, int bits = 16);
+
+/// The same in colour, 8 bit a channel; grey images have three equal channels.
+Image<Rgb> decode_color_image(std::span<const std::uint8_t> bytes, const std::string& name, int bits = 16);
 
 /// The largest value of an image of 16 bits a channel; nothing of one of 8 bits. Throws Error as decode_grey_image().
 std::optional<int> largest_16_bit_value(std::span<const std::uint8_t> bytes, const std::string& name);

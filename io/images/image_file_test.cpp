@@ -25,6 +25,25 @@ std::vector<std::uint8_t> encode(const std::string& extension, const cv::Mat& im
   return bytes;
 }
 
+TEST(ColorImages, AreRedGreenBlueOfEightBits) {
+  const cv::Mat image = noise(CV_8UC3);
+  const Image<Rgb> color = decode_color_image(encode(".png", image), "a");
+  ASSERT_EQ(color.width(), 51);
+  ASSERT_EQ(color.height(), 37);
+  for (int y = 0; y < 37; ++y) {
+    for (int x = 0; x < 51; ++x) {
+      const auto& bgr = image.at<cv::Vec3b>(y, x);
+      ASSERT_EQ(color(x, y), (Rgb{bgr[2], bgr[1], bgr[0]}));
+    }
+  }
+  const Image<Rgb> deep = decode_color_image(encode(".png", cv::Mat(2, 2, CV_16UC3, cv::Scalar(257, 514, 65535))), "a");
+  EXPECT_EQ(deep(1, 1), (Rgb{255, 2, 1}));
+  const Image<Rgb> grey = decode_color_image(encode(".png", cv::Mat(2, 2, CV_16UC1, cv::Scalar(1023))), "a", 10);
+  EXPECT_EQ(grey(0, 0), (Rgb{255, 255, 255}));
+  const Image<Rgb> with_alpha = decode_color_image(encode(".png", cv::Mat(2, 2, CV_8UC4, cv::Scalar(1, 2, 3, 4))), "a");
+  EXPECT_EQ(with_alpha(0, 0), (Rgb{3, 2, 1}));
+}
+
 class LosslessFormat : public testing::TestWithParam<const char*> {};
 
 TEST_P(LosslessFormat, EightBitValuesAreExact) {

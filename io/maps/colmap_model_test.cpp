@@ -24,7 +24,7 @@ TEST(ColmapModel, CamerasKeepTheirLensAndMoveTheirPixelCentresByAHalf) {
 ColmapModel two_images() {
   ColmapModel model;
   model.camera = {CameraModelKind::kPinhole, 640, 480, 500, 500, 319.5, 239.5, {}};
-  model.points = {{{1, 2, 3}, 10}, {{4, 5, 6}, 20}, {{7, 8, 9}, 30}};
+  model.points = {{{1, 2, 3}, 10}, {{4, 5, 6}, 20}, {{7, 8, 9}, 30, Rgb{1, 2, 3}, 0.25}};
   model.images = {{"a.png", SE3d(SO3d(), {1, 0, 0}), {{{10, 20}, 0}, {{30.25, 40}, 2}}},
                   {"b.png", SE3d(), {{{5, 6}, 2}}}};
   return model;
@@ -37,9 +37,26 @@ TEST(ColmapModel, TracksAndObservationsNameEachOther) {
             "# CAMERA_ID MODEL WIDTH HEIGHT PARAMS\n1 PINHOLE 640 480 500 500 320 240\n");
   const std::string images = read_file(folder / "sparse/0/images.txt");
   EXPECT_EQ(images.substr(images.find('\n') + 1),
-            "1 1 0 0 0 -1 0 0 1 a.png\n10.50 20.50 1 30.75 40.50 3\n2 1 0 0 0 0 0 0 1 b.png\n5.50 6.50 3\n");
+            "1 1 0 0 0 -1 0 0 1 a.png\n10.500 20.500 1 30.750 40.500 3\n2 1 0 0 0 0 0 0 1 b.png\n5.500 6.500 3\n");
   const std::string points = read_file(folder / "sparse/0/points3D.txt");
-  EXPECT_EQ(points.substr(points.find('\n') + 1), "1 1 2 3 10 10 10 -1 1 0\n3 7 8 9 30 30 30 -1 1 1 2 0\n");
+  EXPECT_EQ(points.substr(points.find('\n') + 1), "1 1 2 3 10 10 10 -1 1 0\n3 7 8 9 1 2 3 0.25 1 1 2 0\n");
+}
+
+TEST(ColmapModel, BinaryFilesHaveTheBytesThatTheFormatAsksFor) {
+  const TemporaryFolder folder;
+  write_colmap_model(folder.path(), two_images());
+  const std::string cameras = read_file(folder / "cameras.bin");
+  ASSERT_EQ(cameras.size(), 8U + 4 + 4 + 8 + 8 + 4 * 8);
+  EXPECT_TRUE(cameras.starts_with(std::string("\1\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0\x80\2\0\0\0\0\0\0", 24)));
+  const std::string images = read_file(folder / "images.bin");
+  ASSERT_EQ(images.size(), 8U + 2 * (4 + 7 * 8 + 4 + 6 + 8) + 3 * 24);
+  EXPECT_EQ(images.substr(8 + 4 + 56 + 4, 6), std::string("a.png\0", 6));
+  const std::string points = read_file(folder / "points3D.bin");
+  ASSERT_EQ(points.size(), 8U + 2 * (8 + 24 + 3 + 8 + 8) + 3 * 8) << "the point that no image shows is not in it";
+  EXPECT_EQ(points.substr(points.size() - 59, 8), std::string("\0\0\0\0\0\0\x1c\x40", 8)) << "x is 7";
+  EXPECT_EQ(points.substr(points.size() - 35, 3), std::string("\1\2\3"));
+  EXPECT_EQ(points.substr(points.size() - 32, 8), std::string("\0\0\0\0\0\0\xd0\x3f", 8)) << "the error is 0.25";
+  EXPECT_EQ(points.substr(points.size() - 16), std::string("\1\0\0\0\1\0\0\0\2\0\0\0\0\0\0\0", 16));
 }
 
 TEST(ColmapModel, NamesThatTheFormatCannotHoldAreRefused) {

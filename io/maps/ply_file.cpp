@@ -47,13 +47,19 @@ void append_point(std::string& bytes, const PlyPoint& point) {
   append_float(bytes, point.x);
   append_float(bytes, point.y);
   append_float(bytes, point.z);
-  bytes.append(4, static_cast<char>(point.intensity));
+  const char grey = static_cast<char>(point.intensity);
+  for (int i = 0; i < 3; ++i) bytes += point.color ? static_cast<char>((*point.color)[i]) : grey;
+  bytes += grey;
   append_float(bytes, point.idepth_stddev);
 }
 
 PlyPoint point_at(std::string_view bytes, std::size_t offset) {
-  return {float_at(bytes, offset), float_at(bytes, offset + 4), float_at(bytes, offset + 8),
-          static_cast<std::uint8_t>(bytes[offset + 15]), float_at(bytes, offset + 16)};
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[offset + i]); };
+  PlyPoint point{float_at(bytes, offset), float_at(bytes, offset + 4), float_at(bytes, offset + 8), byte(15),
+                 float_at(bytes, offset + 16)};
+  const Rgb color{byte(12), byte(13), byte(14)}, grey{point.intensity, point.intensity, point.intensity};
+  if (color != grey) point.color = color;
+  return point;
 }
 
 bool is_finite(const PlyPoint& p) {

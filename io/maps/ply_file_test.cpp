@@ -16,6 +16,7 @@ TEST(PlyFile, IsReadAsWritten) {
   for (int i = 0; i < 300; ++i) {
     const auto f = static_cast<float>(i);
     points.push_back({f, -f / 3, 1e6F * f, static_cast<std::uint8_t>(i), 1e-5F * f});
+    if (i % 3 == 0) points.back().color = Rgb{1, 2, static_cast<std::uint8_t>(i)};
   }
   write_ply(folder / "map.ply", points);
   const std::vector<PlyPoint> read = read_ply(folder / "map.ply");
@@ -25,6 +26,7 @@ TEST(PlyFile, IsReadAsWritten) {
     EXPECT_EQ(read[i].y, points[i].y);
     EXPECT_EQ(read[i].z, points[i].z);
     EXPECT_EQ(read[i].intensity, points[i].intensity);
+    EXPECT_EQ(read[i].color, points[i].color);
     EXPECT_EQ(read[i].idepth_stddev, points[i].idepth_stddev);
   }
 }

@@ -9,7 +9,7 @@
 #include <opencv2/videoio.hpp>
 #include <vector>
 
-#include "io/images/opencv_grey.h"
+#include "io/images/opencv_images.h"
 #include "ldso/error.h"
 #include "ldso/io/calibration_file.h"
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,13 @@ class Source {
 
   const FinishedRun& run() const { return run_; }
 
+  void say_own_maps() const {
+    if (run_.own_maps == 0) return;
+    std::cerr << "warning: " << run_.own_maps << " part" << (run_.own_maps == 1 ? "" : "s")
+              << " of the run that no loop joined to the first "
+              << "are maps of their own (trajectory_segment_2.txt, map_segment_2.ply, ...) and are left out\n";
+  }
+
   /// The camera of the run.
   const CameraCalibration& camera() const {
     if (!run_.lens)
@@ -64,6 +72,8 @@ class Source {
     if (!map_) {
       map_ = read_recorded_map(a_.run / kRecordingName);
       scale_map(run_.metres_per_unit, *map_);
+      // A map of its own lies nowhere in the world of the others.
+      if (run_.own_maps > 0) keep_frames_of(trajectory(), *map_);
     }
     PlacedMap placed{*map_, map_->corrected};
     if (a_.odometry) {
@@ -83,6 +93,7 @@ class Source {
         if (!(deviation <= placed.most_deviation)) continue;
         const Eigen::Vector3f p = (placed.poses[i] * keyframe.points[k].cast<double>()).cast<float>();
         points.push_back({p.x(), p.y(), p.z(), keyframe.intensity[k], deviation / keyframe.points[k].z()});
+        if (!keyframe.colors.empty()) points.back().color = keyframe.colors[k];
       }
     }
     return points;
@@ -94,9 +105,26 @@ class Source {
   std::optional<RecordedMap> map_;
 };
 
-ColmapImages parse_images(const std::string& name) {
-  if (name == "original") return ColmapImages::kOriginal;
-  return name == "none" ? ColmapImages::kNone : ColmapImages::kRectified;
+/// "rectified", "original" or "none", and a number of images.
+ColmapOptions parse_images(const std::string& words) {
+  ColmapOptions options;
+  std::istringstream in(words);
+  for (std::string word; std::getline(in, word, ',');) {
+    const bool is_number = !word.empty() && word.size() < 8 && word.find_first_not_of("0123456789") == word.npos;
+    if (is_number && std::stoi(word) > 0) {
+      options.count = std::stoi(word);
+    } else if (word == "original" || word == "none" || word == "rectified") {
+      options.images = word == "original" ? ColmapImages::kOriginal
+                       : word == "none"   ? ColmapImages::kNone
+                                          : ColmapImages::kRectified;
+    } else {
+      throw Error("--images " + word, "is neither a kind nor a number of images",
+                  "give rectified, original or none, or how many: 150, or original,150");
+    }
+  }
+  if (options.count && options.images == ColmapImages::kNone)
+    throw Error("--images", "a number of images that are not written", "leave out none, or the number");
+  return options;
 }
 
 struct Format {
@@ -110,7 +138,8 @@ constexpr std::array<Format, 7> kFormats{{
     {"pcd", "map.pcd", [](const fs::path& path, Source& s, const ExportArguments&) { write_pcd(path, s.cloud()); }},
     {"colmap", "colmap/",
      [](const fs::path& path, Source& s, const ExportArguments& a) {
-       export_colmap(path, s.run(), s.map(), parse_images(a.images));
+       for (const std::string& note : export_colmap(path, s.run(), s.map(), s.trajectory(), parse_images(a.images)))
+         std::cerr << note << "\n";
      }},
     {"tum", "trajectory_tum.txt",
      [](const fs::path& path, Source& s, const ExportArguments&) { write_tum_trajectory(path, s.trajectory()); }},
@@ -163,8 +192,11 @@ void add_options(CLI::App& command, ExportArguments& a) {
       .add_option("--max-depth-error", a.most_deviation,
                   "Leave out points whose inverse depth has a larger standard deviation, relative to it (0.05: 5 %)")
       ->check(positive_number());
-  command.add_option("--images", a.images, "colmap: images of the keyframes to write and to make the model for")
-      ->check(CLI::IsMember({"rectified", "original", "none"}))
+  command
+      .add_option("--images", a.images,
+                  "colmap: images to write and to make the model for: rectified, original or none; of the "
+                  "keyframes, or so many of all frames, chosen for sharpness and coverage (150, or original,150)")
+      ->type_name("KIND,N")
       ->capture_default_str();
   command.add_option("--sequence", a.sequence, "Where the sequence is, if it is not where it was");
 }
@@ -201,7 +233,9 @@ void convert_calibration(const ExportArguments& a) {
 
 void export_run(const ExportArguments& a) {
   if (fs::is_regular_file(choose_camera(a.run).file)) return convert_calibration(a);
+  parse_images(a.images);  // What is wrong with it is said before anything is written.
   Source source(a);
+  source.say_own_maps();
   const bool wants_camera = std::any_of(kForeignFormats.begin(), kForeignFormats.end(),
                                         [&](const ForeignFormat& format) { return is_wanted(format.name, a); });
   if (wants_camera) source.camera();  // What cannot be written is said before anything is.

@@ -1,5 +1,6 @@
 #include "commands/live_truth.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "evaluation/absolute_error.h"
@@ -8,6 +9,9 @@
 
 namespace ldso {
 namespace {
+
+/// So much earlier or later a pose may be than the frame that it belongs to [s].
+constexpr double kMargin = 0.02;
 
 std::optional<protocol::Alignment> align(const Trajectory& estimate, const Trajectory& truth) {
   try {
@@ -29,9 +33,14 @@ void add_truth(const Dataset& dataset, LiveRunOptions& options) {
   } catch (const Error&) {
     return;
   }
-  if (!truth) return;
+  if (!truth || dataset.size() == 0) return;
   std::erase_if(*truth, [](const StampedPose& pose) { return !has_finite_pose(pose); });
-  for (const StampedPose& pose : *truth) options.truth.push_back(pose.T_world_camera.translation());
+  // What lies before or after the frames that are played is no truth of this run.
+  const auto [first, last] = std::minmax({dataset.timestamp(0), dataset.timestamp(dataset.size() - 1)});
+  for (const StampedPose& pose : *truth) {
+    if (pose.timestamp >= first - kMargin && pose.timestamp <= last + kMargin)
+      options.truth.push_back(pose.T_world_camera.translation());
+  }
   options.align = [truth = std::move(*truth)](const Trajectory& estimate) { return align(estimate, truth); };
 }
 

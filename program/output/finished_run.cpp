@@ -79,6 +79,7 @@ FinishedRun read_finished_run(const fs::path& folder) {
     run.camera = camera_of(sequence.at("estimated_camera"));
     run.lens = lens_of(json.at("self_calibration").at("camera"));
     if (json.contains("scale") && !json["scale"].is_null()) run.metres_per_unit = json["scale"].at("metres_per_unit");
+    if (json.contains("segments")) run.own_maps = json["segments"].size();
     if (!(run.metres_per_unit > 0)) throw Error(path.string(), "the scale is not positive", "run the sequence again");
     if (json.at("self_calibration").at("corrected").get<bool>()) run.options.calibration_file = folder / "camera.txt";
   } catch (const Json::exception& error) {

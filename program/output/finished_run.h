@@ -16,6 +16,7 @@ struct FinishedRun {
   PinholeIntrinsics camera;  ///< Of the rectified images, as estimated.
   /// As the run ended with it; runs of older versions do not say.
   std::optional<CameraCalibration> lens = std::nullopt;
+  std::size_t own_maps = 0;    ///< Parts that no loop joined to the main one.
   double metres_per_unit = 1;  ///< By which the recording, in the units of the run, becomes what its results are in.
 };
 

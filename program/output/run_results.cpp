@@ -3,9 +3,11 @@
 #include <exception>
 #include <utility>
 
+#include "imagery/point_colors.h"
 #include "report/report_page.h"
 #include "results/loop_pictures.h"
 #include "util/out_of_memory.h"
+#include "viewer/recording/recording_file.h"
 
 namespace ldso {
 namespace {
@@ -22,6 +24,25 @@ void draw_loops(OutputFolder& out, RunSummary& summary, const Dataset& dataset, 
     if (warn) warn(warning);
     summary.warnings.push_back(std::move(warning));
   }
+}
+
+/// The viewer shows points in the colours of their images, if there are any, and lengths in metres, if they are known.
+void finish_recording(OutputFolder& out, RunSummary& summary, const Dataset& dataset,
+                      const std::function<void(const std::string&)>& warn) {
+  const SequenceRun& run = summary.run;
+  const bool is_metric = summary.scale && summary.scale->problem.empty();
+  const double metres_per_unit = is_metric ? summary.scale->metres_per_unit : 1;
+  Bytes finished = is_metric ? with_scale(summary.recording, metres_per_unit) : summary.recording;
+  if (!run.live) {  // Of a live run the frames are gone.
+    finished = colored_recording(finished, dataset, run.calibration, run.result.camera, summary.trajectory,
+                                 metres_per_unit, [&](const std::string& text) {
+                                   if (warn) warn(text);
+                                   summary.warnings.push_back(text);
+                                 });
+  }
+  if (finished == summary.recording) return;
+  summary.recording = std::move(finished);
+  write_recording(out.file(kRecordingName), summary.recording);
 }
 
 /// Does it; what it throws becomes a problem of the results, and costs nothing else.
@@ -44,6 +65,7 @@ std::vector<std::string> write_run_results(OutputFolder& out, RunSummary& summar
   if (summary.is_corrected()) summary.odometry_evaluation = evaluate_run(summary.odometry_trajectory, dataset);
   // What was computed is safe before pictures read frames again.
   std::vector<std::string> problems = write_run_files(out, summary, options.kitti);
+  keep_going([&] { finish_recording(out, summary, dataset, warn); }, problems);
   keep_going([&] { draw_loops(out, summary, dataset, options.loop_pictures, warn); }, problems);
   if (options.report) keep_going([&] { write_report(out.file(kReportName), summary, dataset); }, problems);
   if (!problems.empty() && summary.run.error.empty()) summary.run.error = "results are missing: " + problems.front();

@@ -42,6 +42,7 @@ void RunFeed::on_keyframe(const KeyframeUpdate& keyframe, const PinholeIntrinsic
   protocol::Keyframe shown =
       protocol::to_keyframe(keyframe.frame_id, keyframe.T_world_camera, keyframe.points, camera, keyframe.readout);
   shown.timestamp = keyframe.timestamp;
+  shown.segment = keyframe.segment;
   for (const KeyframeConstraint& constraint : keyframe.constraints) shown.links.push_back(constraint.keyframe_id);
   leave([&](Inbox& inbox) { inbox.keyframes.push_back(std::move(shown)); });
 }

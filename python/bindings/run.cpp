@@ -205,7 +205,24 @@ SequenceRun run_source(const py::object& source, const std::optional<fs::path>& 
 
 }  // namespace
 
+void bind_found_camera(py::module_& module) {
+  py::class_<FoundCamera>(module, "FoundCamera",
+                          "How well the camera is known of a sequence that came without a calibration.")
+      .def_property_readonly(
+          "stddevs",
+          [](const FoundCamera& f) {
+            return make_column<double>(f.stddevs.size(), [&](std::size_t i) { return f.stddevs[i]; });
+          },
+          "Standard deviations of fx, fy, cx, cy [px], the first two distortion coefficients and the readout [ms]: "
+          "float64 of shape (7,).")
+      .def_readonly("doubt", &FoundCamera::doubt, "Why it is not known; empty if it is.")
+      .def("__repr__", [](const FoundCamera& f) {
+        return f.doubt.empty() ? std::string("<ldso.FoundCamera>") : "<ldso.FoundCamera, in doubt: " + f.doubt + ">";
+      });
+}
+
 void bind_run(py::module_& module) {
+  bind_found_camera(module);
   py::class_<SequenceRun>(module, "SequenceRun", "What ldso.run() has done.")
       .def_readonly("result", &SequenceRun::result)
       .def_readonly("calibration", &SequenceRun::calibration, "With which the frames were read in the end.")
@@ -213,6 +230,10 @@ void bind_run(py::module_& module) {
       .def_readonly("is_corrected", &SequenceRun::is_corrected, "Whether the calibration is a better one.")
       .def_readonly("proof", &SequenceRun::proof, "What speaks for it.")
       .def_readonly("refused_correction", &SequenceRun::refused_correction, "One that did not prove itself, and why.")
+      .def_readonly(
+          "found_camera", &SequenceRun::found_camera,
+          "A FoundCamera if the sequence came without a calibration, else None: `calibration` is then the one that "
+          "was found.")
       .def_readonly("seconds", &SequenceRun::seconds, "Wall time of all frames.")
       .def("__repr__", [](const SequenceRun& r) {
         return "<ldso.SequenceRun of " + std::to_string(r.result.frames.size()) + " frames>";

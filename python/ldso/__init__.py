@@ -16,6 +16,7 @@ from ldso._ldso import (
     Dataset,
     Error,
     Evaluation,
+    FoundCamera,
     Frame,
     FrameRecord,
     LoopRecord,
@@ -38,7 +39,7 @@ from ldso._ldso import (
 )
 
 __all__ = [
-    "Calibration", "Dataset", "Error", "Evaluation", "Frame", "FrameRecord", "LoopRecord", "PinholeIntrinsics",
-    "PointCloud", "SequenceRun", "Settings", "SimulatedSequence", "Slam", "SlamResult", "Statistics", "Trajectory",
-    "TumMonoError", "Viewer", "__version__", "evaluate", "open", "run", "simulate",
+    "Calibration", "Dataset", "Error", "Evaluation", "FoundCamera", "Frame", "FrameRecord", "LoopRecord",
+    "PinholeIntrinsics", "PointCloud", "SequenceRun", "Settings", "SimulatedSequence", "Slam", "SlamResult",
+    "Statistics", "Trajectory", "TumMonoError", "Viewer", "__version__", "evaluate", "open", "run", "simulate",
 ]

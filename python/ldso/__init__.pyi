@@ -160,6 +160,10 @@ class Dataset:
     def __getitem__(self, index: int) -> Frame: ...
     def __iter__(self) -> Iterator[Frame]: ...
 
+class FoundCamera:
+    stddevs: NDArray[np.float64]
+    doubt: str
+
 class SequenceRun:
     result: SlamResult
     calibration: Calibration
@@ -167,6 +171,7 @@ class SequenceRun:
     is_corrected: bool
     proof: str
     refused_correction: str
+    found_camera: Optional[FoundCamera]
     seconds: float
 
 class Statistics:

@@ -6,13 +6,15 @@ import { MapModel } from './map_model';
 import { MapView } from './map_view';
 import { Panel } from './panel';
 import { Plots } from './plots';
+import { ScaleBar } from './scale_bar';
 import { Timeline } from './timeline';
 import { installTestHook } from './test_hook';
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
 const model = new MapModel();
-const map = new MapView(element<HTMLCanvasElement>('map'), model);
+const scaleBar = new ScaleBar(element('scale'), model);
+const map: MapView = new MapView(element<HTMLCanvasElement>('map'), model, () => scaleBar.update(map));
 const image = new ImageView(element<HTMLCanvasElement>('image'));
 let cutoff = Infinity;
 

@@ -1,10 +1,11 @@
 // What is known of a run: keyframes, frames, loops, and where all of it lies by what is known now. Knows nothing of how
 // it is shown; a recording that is fed to it in one go gives the same as a run that is watched.
 
+import { layOut, NO_PLACES, type Places } from './map_parts';
 import { apply, compose, IDENTITY } from './pose';
 import type {
-  AlignmentMessage, Frame, Hello, ImageMessage, LogLine, Loop, Message, PointArrays, Pose, PosesMessage, StatusMessage,
-  WindowMessage,
+  AlignmentMessage, Frame, Hello, ImageMessage, KeyframeMessage, LogLine, Loop, Message, PointArrays, Pose, PosesMessage, StatusMessage,
+  Vec3, WindowMessage,
 } from './protocol';
 
 export interface Keyframe {
@@ -14,6 +15,7 @@ export interface Keyframe {
   corrected: Pose | null; // as far as loop closing has told
   links: number[];
   pointCount: number;
+  segment: number; // counted as they come
 }
 
 /** What has changed since it was last asked for. */
@@ -37,6 +39,11 @@ function noChanges(): Changes {
   };
 }
 
+/** The pose beside where it is. */
+function moved(pose: Pose, by: Vec3 | undefined): Pose {
+  return by ? { ...pose, t: [pose.t[0] + by[0], pose.t[1] + by[1], pose.t[2] + by[2]] } : pose;
+}
+
 export class MapModel {
   hello: Hello | null = null;
   readonly keyframes: Keyframe[] = [];
@@ -53,14 +60,22 @@ export class MapModel {
   window: WindowMessage | null = null;
   correction: Pose = IDENTITY;
   pointCount = 0;
+  hasColors = false;
+  /** Where the parts of the run are drawn that have nothing to do with each other. */
+  places: Places = NO_PLACES;
 
   private readonly keyframeById = new Map<number, Keyframe>();
   private readonly pendingPoses = new Map<number, Pose>(); // of keyframes that have not come yet
+  private readonly segments = new Map<number, number>();
   private readonly firstFrameOf = new Map<number, number>(); // keyframe id to index in `frames`
   private changes = noChanges();
 
   takeChanges(): Changes {
     const changes = this.changes;
+    if (changes.poses && this.newestSegment > 0) {
+      this.placeParts();
+      changes.framesFrom = 0;
+    }
     this.changes = noChanges();
     return changes;
   }
@@ -75,7 +90,7 @@ export class MapModel {
         this.reset(message);
         break;
       case 'keyframe':
-        this.addKeyframe(message.id, message.pose, message.links, message.points);
+        this.addKeyframe(message);
         break;
       case 'poses':
         this.history.push(message);
@@ -90,6 +105,7 @@ export class MapModel {
       case 'loops':
         this.loops.push(...message.loops);
         this.changes.loops = true;
+        if (this.newestSegment > 0) this.changes.poses = true; // It may have joined two parts.
         break;
       case 'log':
         this.log.push(...message.lines);
@@ -133,12 +149,34 @@ export class MapModel {
       this.correction = step.correction;
       for (const { id, pose } of step.poses) this.setCorrected(id, pose);
     }
+    if (this.newestSegment > 0) this.placeParts();
     return true;
   }
 
-  /** A keyframe's pose with loops; without loop closing that of the odometry. */
+  /** A keyframe's pose with loops, where its part is drawn; without loop closing that of the odometry. */
   correctedPose(keyframe: Keyframe): Pose {
+    return moved(this.ownPose(keyframe), this.places.corrected[keyframe.segment]);
+  }
+
+  /** The same before loop closing: then no two segments have anything to do with each other. */
+  odometryPose(keyframe: Keyframe): Pose {
+    return moved(keyframe.odometry, this.places.odometry[keyframe.segment]);
+  }
+
+  /** Whether a loop was closed by the time that is shown. */
+  get hasLoops(): boolean {
+    return this.loops.some((loop) => loop.atFrame <= this.time);
+  }
+
+  private ownPose(keyframe: Keyframe): Pose {
     return keyframe.corrected ?? compose(this.correction, keyframe.odometry);
+  }
+
+  private placeParts(): void {
+    const loops = this.loops.filter((loop) => loop.atFrame <= this.time);
+    const joined = loops.map((loop) => [loop.keyframeId, loop.candidateId].map((id) => this.keyframe(id)?.segment ?? 0));
+    const keyframes = this.keyframes.map((k) => ({ segment: k.segment, odometry: k.odometry.t, corrected: this.ownPose(k).t }));
+    this.places = layOut(keyframes, joined as [number, number][]);
   }
 
   /** Where a frame was: by the odometry, and with loops. Null if it has no pose. */
@@ -147,13 +185,31 @@ export class MapModel {
     if (!frame.world) return null;
     if (keyframe) {
       return {
-        odometry: compose(keyframe.odometry, frame.relative),
+        odometry: compose(this.odometryPose(keyframe), frame.relative),
         corrected: compose(this.correctedPose(keyframe), frame.relative),
       };
     }
     const inWindow = this.window?.keyframes.find((k) => k.id === frame.keyframeId);
     const odometry = inWindow ? compose(inWindow.pose, frame.relative) : frame.world;
-    return { odometry, corrected: compose(this.correction, odometry) };
+    return this.inWindow(odometry);
+  }
+
+  /** A pose of the odometry that no keyframe of the map holds yet: of the newest segment. */
+  inWindow(odometry: Pose): { odometry: Pose; corrected: Pose } {
+    const segment = this.newestSegment;
+    return {
+      odometry: moved(odometry, this.places.odometry[segment]),
+      corrected: moved(compose(this.correction, odometry), this.places.corrected[segment]),
+    };
+  }
+
+  private segmentIndex(segment: number): number {
+    if (!this.segments.has(segment)) this.segments.set(segment, this.segments.size);
+    return this.segments.get(segment)!;
+  }
+
+  private get newestSegment(): number {
+    return this.keyframes.at(-1)?.segment ?? 0;
   }
 
   /** Ground truth in the map's world; null as long as it is not known where it lies. */
@@ -183,23 +239,27 @@ export class MapModel {
     this.history.length = this.applied = 0;
     this.time = Infinity;
     this.pointCount = 0;
+    this.hasColors = false;
+    this.places = NO_PLACES;
     this.keyframeById.clear();
     this.pendingPoses.clear();
     this.firstFrameOf.clear();
+    this.segments.clear();
     this.changes = noChanges();
     this.changes.reset = this.changes.log = this.changes.status = this.changes.loops = true;
   }
 
-  private addKeyframe(id: number, odometry: Pose, links: number[], points: PointArrays): void {
+  private addKeyframe({ id, pose, links, points, segment }: KeyframeMessage): void {
     if (this.keyframeById.has(id)) return;
     const keyframe: Keyframe = {
-      index: this.keyframes.length, id, odometry, corrected: this.pendingPoses.get(id) ?? null, links,
-      pointCount: points.count,
+      index: this.keyframes.length, id, odometry: pose, corrected: this.pendingPoses.get(id) ?? null, links,
+      pointCount: points.count, segment: this.segmentIndex(segment),
     };
     this.pendingPoses.delete(id);
     this.keyframes.push(keyframe);
     this.keyframeById.set(id, keyframe);
     this.pointCount += points.count;
+    this.hasColors ||= points.colors !== null;
     this.changes.keyframes.push({ keyframe, points });
     this.changes.poses = true;
     this.recompute(id);

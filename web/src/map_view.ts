@@ -5,10 +5,11 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 import { FatLines } from './fat_lines';
-import type { Changes, MapModel } from './map_model';
+import { inlierBox, median } from './inliers';
+import type { Changes, Keyframe, MapModel } from './map_model';
 import { LAYERS, PointCloud, deviationOnScale } from './point_cloud';
-import { apply, compose } from './pose';
-import type { Pose, Vec3 } from './protocol';
+import { apply } from './pose';
+import type { PointArrays, Pose, Vec3 } from './protocol';
 
 export type Follow = 'free' | 'follow' | 'camera';
 
@@ -49,6 +50,10 @@ const REST_MS = 250;
 const LONGEST_REST_MS = 700;
 /** So many can always be drawn. */
 const FEW_POINTS = 60000;
+
+/** Of a keyframe's points every so many'th is looked at for the size of the map, if it is as certain as this. */
+const SAMPLED = 20;
+const CERTAIN = 0.1;
 
 const FRUSTUM_EDGES: [number, number][] = [[0, 1], [0, 2], [0, 3], [0, 4], [1, 2], [2, 3], [3, 4], [4, 1]];
 
@@ -93,8 +98,9 @@ export class MapView {
   private lastChange = 0;
   private drawnLayers = LAYERS;
   private msPerLayer = 0;
-  private depthSum = 0;
-  private depthCount = 0;
+  private readonly samples: { keyframe: Keyframe; xyz: Vec3 }[] = []; // of the more certain points
+  private depth = 1; // see unit()
+  private depthOf = 0; // samples that it is the median of
   private heightRange = new THREE.Vector2(-1, 1);
 
   constructor(
@@ -163,7 +169,7 @@ export class MapView {
     if (changes.reset || changes.poses || changes.framesFrom < Infinity) this.box = null;
     for (const { keyframe, points } of changes.keyframes) {
       this.cloud.add(keyframe.index, points);
-      this.measure(points.xyz);
+      this.sample(keyframe, points);
     }
     if (changes.poses) this.updatePoses();
     if (changes.framesFrom < Infinity) this.updateTrajectories(changes.framesFrom);
@@ -245,24 +251,30 @@ export class MapView {
     }
     this.lastPosition = null;
     this.fittedSize = 0;
-    this.depthSum = this.depthCount = 0;
+    this.samples.length = 0;
+    this.depth = 1;
+    this.depthOf = 0;
   }
 
-  /** Mean distance of the points from their cameras: what "near" means in this map. */
-  private unit(): number {
-    return this.depthCount > 0 ? this.depthSum / this.depthCount : 1;
+  /** Median distance of the points from their cameras: what "near" means in this map, however far some seem to be. */
+  unit(): number {
+    if (this.samples.length > 1.1 * this.depthOf) {
+      this.depth = median(this.samples.map(({ xyz }) => xyz[2]));
+      this.depthOf = this.samples.length;
+    }
+    return this.depth;
   }
 
-  private measure(xyz: Float32Array): void {
-    for (let i = 2; i < xyz.length; i += 30) {
-      this.depthSum += Math.min(xyz[i], 1e3);
-      ++this.depthCount;
+  private sample(keyframe: Keyframe, points: PointArrays): void {
+    for (let i = 0; i < points.count; i += SAMPLED) {
+      if (points.depthStddev[i] > CERTAIN) continue;
+      this.samples.push({ keyframe, xyz: [points.xyz[3 * i], points.xyz[3 * i + 1], points.xyz[3 * i + 2]] });
     }
   }
 
   private updatePoses(): void {
     for (const keyframe of this.model.keyframes) {
-      this.cloud.setPoses(keyframe.index, keyframe.odometry, this.model.correctedPose(keyframe));
+      this.cloud.setPoses(keyframe.index, this.model.odometryPose(keyframe), this.model.correctedPose(keyframe));
     }
     this.updateWindow();
   }
@@ -291,18 +303,18 @@ export class MapView {
     }
     // Those that have left the window are in the large cloud already.
     const keyframes = window.keyframes.filter((k) => !this.model.keyframe(k.id)).slice(0, MOST_WINDOW);
-    keyframes.forEach((k, i) => this.windowCloud.setPoses(i, k.pose, this.corrected(k.pose)));
+    keyframes.forEach((k, i) => {
+      const { odometry, corrected } = this.model.inWindow(k.pose);
+      this.windowCloud.setPoses(i, odometry, corrected);
+    });
     this.windowCloud.replace(keyframes.map((k, i) => ({ host: i, points: k.points })));
     for (const k of keyframes) this.addFrustum(this.windowFrustums, this.shownPose(k.pose), 0.11);
     this.windowFrustums.update(this.windowFrustums.count);
   }
 
-  private corrected(pose: Pose): Pose {
-    return compose(this.model.correction, pose);
-  }
-
-  private shownPose(odometry: Pose): Pose {
-    return this.settings.corrected ? this.corrected(odometry) : odometry;
+  private shownPose(pose: Pose): Pose {
+    const { odometry, corrected } = this.model.inWindow(pose);
+    return this.settings.corrected ? corrected : odometry;
   }
 
   private updateTruth(): void {
@@ -323,7 +335,7 @@ export class MapView {
     const model = this.model;
     const poseOf = (id: number): Pose | null => {
       const keyframe = model.keyframe(id);
-      if (keyframe) return this.settings.corrected ? model.correctedPose(keyframe) : keyframe.odometry;
+      if (keyframe) return this.settings.corrected ? model.correctedPose(keyframe) : model.odometryPose(keyframe);
       const inWindow = model.window?.keyframes.find((k) => k.id === id);
       return inWindow ? this.shownPose(inWindow.pose) : null;
     };
@@ -423,18 +435,35 @@ export class MapView {
     return new THREE.Vector3(p[0], -p[1], -p[2]);
   }
 
-  /** Of the trajectory and the nearer points, in the scene. */
+  /** Of the trajectory and of the points, but for stray ones, in the scene. */
   private bounds(): THREE.Box3 {
     if (this.box) return this.box;
-    const box = new THREE.Box3();
-    this.box = box;
-    const frames = this.model.frames;
-    const step = Math.max(1, Math.floor(frames.length / 2000));
-    for (let i = 0; i < frames.length; i += step) {
-      const poses = this.model.framePoses(frames[i]);
-      if (poses) box.expandByPoint(this.toScene(this.settings.corrected ? poses.corrected.t : poses.odometry.t));
+    const { model, settings } = this;
+    const way: Vec3[] = [];
+    const step = Math.max(1, Math.floor(model.frames.length / 2000));
+    for (let i = 0; i < model.frames.length; i += step) {
+      const poses = model.framePoses(model.frames[i]);
+      if (poses) way.push(settings.corrected ? poses.corrected.t : poses.odometry.t);
     }
-    return box.isEmpty() ? box : box.expandByScalar(0.8 * this.unit());
+    const points: Vec3[] = [];
+    const stride = Math.max(1, Math.floor(this.samples.length / 4000));
+    for (let i = 0; i < this.samples.length; i += stride) {
+      const { keyframe, xyz } = this.samples[i];
+      points.push(apply(settings.corrected ? model.correctedPose(keyframe) : model.odometryPose(keyframe), xyz));
+    }
+    this.box = new THREE.Box3();
+    const inliers = inlierBox(way, points);
+    if (inliers) {
+      this.box.expandByPoint(this.toScene(inliers.low)).expandByPoint(this.toScene(inliers.high));
+      this.box.expandByScalar(0.1 * this.unit());
+    }
+    return this.box;
+  }
+
+  /** Length in the map, in its own unit, of a pixel in the middle of the picture, where it is looked at. */
+  get unitsPerPixel(): number {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return (2 * distance * Math.tan((0.5 * this.camera.fov * Math.PI) / 180)) / this.viewport.y;
   }
 
   private updateLook(): void {
@@ -450,7 +479,8 @@ export class MapView {
     this.windowCloud.uniforms.firstHost.value = -this.cloud.uniforms.lastHost.value;
     this.windowCloud.uniforms.lastHost.value = MOST_WINDOW;
     this.odometry.object.visible = s.odometry;
-    this.trajectory.object.visible = s.trajectory;
+    // Without a closed loop it is the odometry's, and would only hide that.
+    this.trajectory.object.visible = s.trajectory && this.model.hasLoops;
     this.truth.object.visible = s.truth;
     this.loopEdges.object.visible = s.loops;
     this.links.object.visible = s.covisibility;

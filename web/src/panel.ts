@@ -3,7 +3,8 @@
 import type { ImageView } from './image_view';
 import type { Changes, MapModel } from './map_model';
 import type { Follow, MapView, Switch } from './map_view';
-import { COLOR_MODES } from './point_cloud';
+import { partsNote } from './map_parts';
+import { COLOR_MODES, IMAGE_COLOR } from './point_cloud';
 import { Command, RunState, Tracking } from './protocol';
 import type { Timeline } from './timeline';
 
@@ -28,6 +29,8 @@ const SWITCHES: { setting: Switch; label: string; key: string; mark?: string }[]
   { setting: 'grid', label: 'grid', key: '9' },
   { setting: 'corrected', label: 'map with loops', key: 'l' },
 ];
+/** Of no use before a loop is closed. */
+const OF_LOOPS: Switch[] = ['loops', 'corrected', 'trajectory'];
 const MOST_LOG_LINES = 200;
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -41,6 +44,7 @@ export class Panel {
   private readonly pointSize = element<HTMLInputElement>('size');
   private readonly deviation = element<HTMLInputElement>('deviation');
   private logLines = 0;
+  private hasChosenColor = false;
 
   constructor(private readonly parts: Parts) {
     this.makeSwitches();
@@ -72,6 +76,7 @@ export class Panel {
   update(changes: Changes, cutoff: number): void {
     if (changes.reset) this.onHello();
     if (changes.log) this.showLog(changes.reset);
+    if (changes.keyframes.length > 0) this.offerColors();
     this.showState();
     this.showFigures(cutoff);
   }
@@ -95,9 +100,23 @@ export class Panel {
     set('tracked', frame ? thousands(frame.points) : '–');
     const alignment = model.alignment;
     element('truth-row').hidden = !alignment;
-    if (alignment) set('ate', `${alignment.ateRmse.toPrecision(3)}`);
+    if (alignment) set('ate', `${alignment.ateRmse.toPrecision(3)} m`);
+    const note = partsNote(model.places);
+    element('parts').hidden = note === '';
+    set('parts', note);
+    for (const setting of OF_LOOPS) this.boxes.get(setting)!.parentElement!.hidden = model.loops.length === 0;
     set('image-info', image.shown.frameId >= 0
       ? `frame ${image.shown.frameId} · ${image.shown.active} active · ${image.shown.candidates} candidates` : '');
+  }
+
+  /** The colours of the images, where there are any, unless somebody has chosen others. */
+  private offerColors(): void {
+    const option = this.colorMode.options[IMAGE_COLOR];
+    if (option.disabled !== this.parts.model.hasColors) return;
+    option.disabled = !this.parts.model.hasColors;
+    if (this.hasChosenColor) return;
+    this.colorMode.value = String(option.disabled ? 0 : IMAGE_COLOR);
+    this.parts.map.set({ colorMode: Number(this.colorMode.value) });
   }
 
   private onHello(): void {
@@ -172,7 +191,11 @@ export class Panel {
   private makeInputs(): void {
     const { map, image } = this.parts;
     COLOR_MODES.forEach((mode, i) => this.colorMode.add(new Option(mode, String(i))));
-    this.colorMode.addEventListener('change', () => map.set({ colorMode: Number(this.colorMode.value) }));
+    this.colorMode.options[IMAGE_COLOR].disabled = true;
+    this.colorMode.addEventListener('change', () => {
+      this.hasChosenColor = true;
+      map.set({ colorMode: Number(this.colorMode.value) });
+    });
     this.follow.addEventListener('change', () => this.setFollow(this.follow.value as Follow));
     this.pointSize.addEventListener('input', () => map.set({ pointSize: this.pointSize.valueAsNumber }));
     this.deviation.addEventListener('input', () => {
@@ -268,7 +291,9 @@ export class Panel {
     this.parts.map.set({ follow });
   }
   private nextColor(): void {
-    this.colorMode.value = String((Number(this.colorMode.value) + 1) % COLOR_MODES.length);
+    const modes = this.parts.model.hasColors ? COLOR_MODES.length : IMAGE_COLOR; // It is the last one.
+    this.hasChosenColor = true;
+    this.colorMode.value = String((Number(this.colorMode.value) + 1) % modes);
     this.parts.map.set({ colorMode: Number(this.colorMode.value) });
   }
   private setPointSize(size: number): void {

@@ -12,11 +12,13 @@ const CHUNK = 1 << 13; // points
 /** Of a keyframe's poses: translation and scale, rotation; of the odometry, then corrected. */
 const TEXELS = 4;
 
-export const COLOR_MODES = ['intensity', 'height', 'depth variance', 'keyframe age'] as const;
+export const COLOR_MODES = ['intensity', 'height', 'depth variance', 'keyframe age', 'image color'] as const;
+export const IMAGE_COLOR = COLOR_MODES.indexOf('image color');
 
 const VERTEX = /* glsl */ `
   ${TEXEL_FUNCTION}
   attribute float host;
+  attribute vec3 rgb;
   attribute vec4 look; // intensity, relative deviation of the inverse depth (log scale), corner
   uniform sampler2D poses;
   uniform float which; // 0: odometry, 1: corrected
@@ -52,6 +54,7 @@ const VERTEX = /* glsl */ `
     if (mode == 0) tint = vec3(pow(look.x, 0.6) * 0.85 + 0.15);
     else if (mode == 1) tint = ramp((-world.y - heights.x) / max(heights.y - heights.x, 1e-6));
     else if (mode == 2) tint = ramp(look.y);
+    else if (mode == 4) tint = rgb;
     else tint = ramp((host - firstHost) / max(lastHost - firstHost, 1.0));
     vec4 p = modelViewMatrix * vec4(world, 1.0);
     gl_Position = projectionMatrix * p;
@@ -69,6 +72,8 @@ const FRAGMENT = /* glsl */ `
 export function deviationOnScale(relative: number): number {
   return Math.min(1, Math.max(0, Math.log(Math.max(relative, 1e-9) / 5e-4) / Math.log(1000)));
 }
+
+const ATTRIBUTES = ['position', 'host', 'look', 'rgb'];
 
 interface Chunk {
   points: THREE.Points;
@@ -139,7 +144,7 @@ export class PointCloud {
   private fill(layer: number, i: number, host: number, arrays: PointArrays): number {
     const chunk = this.openChunk(layer);
     const geometry = chunk.points.geometry;
-    const [position, hosts, looks] = ['position', 'host', 'look'].map(
+    const [position, hosts, looks, colors] = ATTRIBUTES.map(
       (name) => (geometry.getAttribute(name) as THREE.BufferAttribute).array);
     const first = chunk.used;
     let at = first;
@@ -151,6 +156,7 @@ export class PointCloud {
       looks[4 * at] = arrays.intensity[i];
       looks[4 * at + 1] = Math.round(255 * deviationOnScale(arrays.depthStddev[i]));
       looks[4 * at + 2] = 255 * arrays.isCorner[i];
+      for (let k = 0; k < 3; ++k) colors[3 * at + k] = arrays.colors?.[3 * i + k] ?? arrays.intensity[i];
     }
     this.setUsed(chunk, at, first);
     return i;
@@ -161,7 +167,7 @@ export class PointCloud {
     const geometry = chunk.points.geometry;
     geometry.setDrawRange(0, used);
     if (used <= first) return;
-    for (const name of ['position', 'host', 'look']) {
+    for (const name of ATTRIBUTES) {
       const attribute = geometry.getAttribute(name) as THREE.BufferAttribute;
       if (attribute.updateRanges.length > 64) attribute.clearUpdateRanges(); // not seen for long: all at once then
       else attribute.addUpdateRange(first * attribute.itemSize, (used - first) * attribute.itemSize);
@@ -176,6 +182,7 @@ export class PointCloud {
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * CHUNK), 3));
     geometry.setAttribute('host', new THREE.BufferAttribute(new Float32Array(CHUNK), 1));
     geometry.setAttribute('look', new THREE.BufferAttribute(new Uint8Array(4 * CHUNK), 4, true));
+    geometry.setAttribute('rgb', new THREE.BufferAttribute(new Uint8Array(3 * CHUNK), 3, true));
     const points = new THREE.Points(geometry, this.material);
     points.frustumCulled = false;
     this.object.add(points);

@@ -18,6 +18,7 @@ export interface PointArrays {
   depthStddev: Float32Array; // relative
   intensity: Uint8Array;
   isCorner: Uint8Array;
+  colors: Uint8Array | null; // red, green, blue of each, if the images have colour and were read again
 }
 
 export interface Hello {
@@ -34,6 +35,7 @@ export interface Hello {
   cx: number;
   cy: number;
   name: string;
+  metresPerUnit: number; // 0: nobody knows
 }
 
 export interface KeyframeMessage {
@@ -43,6 +45,7 @@ export interface KeyframeMessage {
   pose: Pose; // of the odometry
   points: PointArrays;
   links: number[];
+  segment: number; // the map was lost between two of them
 }
 
 export interface PosesMessage {
@@ -180,6 +183,7 @@ class Reader {
   constructor(
     private readonly buffer: ArrayBuffer,
     private at: number,
+    private readonly end: number,
   ) {
     this.view = new DataView(buffer);
   }
@@ -193,6 +197,11 @@ class Reader {
   i64 = () => Number(this.advance(8, (at) => this.view.getBigInt64(at, true)));
   align(unit: number): void {
     this.at = Math.ceil(this.at / unit) * unit;
+  }
+  /** Whether the message goes on: older servers and recordings leave out what came to its end later. */
+  hasMore(): boolean {
+    this.align(8);
+    return this.at < this.end;
   }
   text(bytes: number): string {
     return new TextDecoder().decode(this.bytes(bytes));
@@ -222,7 +231,7 @@ class Reader {
     const intensity = this.bytes(count);
     const isCorner = this.bytes(count);
     this.align(8);
-    return { count, xyz, depthStddev, intensity, isCorner };
+    return { count, xyz, depthStddev, intensity, isCorner, colors: null };
   }
   private advance<T>(bytes: number, read: (at: number) => T): T {
     const at = this.at;
@@ -245,7 +254,8 @@ function readHello(r: Reader): Hello {
   const [width, height] = [r.u32(), r.u32()];
   const [fx, fy, cx, cy] = [r.f64(), r.f64(), r.f64(), r.f64()];
   const name = r.text(r.u32());
-  return { kind: 'hello', version, runId, epoch, replay, hasControl, width, height, fx, fy, cx, cy, name };
+  const metresPerUnit = r.hasMore() ? r.f64() : 0;
+  return { kind: 'hello', version, runId, epoch, replay, hasControl, width, height, fx, fy, cx, cy, name, metresPerUnit };
 }
 
 function readKeyframe(r: Reader): KeyframeMessage {
@@ -256,7 +266,13 @@ function readKeyframe(r: Reader): KeyframeMessage {
   const linkCount = r.u32();
   const links: number[] = [];
   for (let i = 0; i < linkCount; ++i) links.push(r.i64());
-  return { kind: 'keyframe', id, timestamp, pose, links, points: r.points(count) };
+  const points = r.points(count);
+  let segment = 0;
+  if (r.hasMore()) {
+    segment = r.u32();
+    if (r.u32() === 1) points.colors = r.bytes(3 * count);
+  }
+  return { kind: 'keyframe', id, timestamp, pose, links, points, segment };
 }
 
 function readPoses(r: Reader): PosesMessage {
@@ -384,7 +400,7 @@ export function decode(buffer: ArrayBuffer): Message[] {
   for (let at = 0; at + HEADER_BYTES <= buffer.byteLength; ) {
     const size = view.getUint32(at, true);
     if (size < HEADER_BYTES || at + size > buffer.byteLength) throw new Error('a message is cut off');
-    const message = readMessage(view.getUint16(at + 4, true), new Reader(buffer, at + HEADER_BYTES));
+    const message = readMessage(view.getUint16(at + 4, true), new Reader(buffer, at + HEADER_BYTES, at + size));
     if (message) messages.push(message);
     at += size;
   }

@@ -3,8 +3,10 @@
 
 import { MapModel } from './map_model';
 import { MapView, type Switch } from './map_view';
-import { COLOR_MODES } from './point_cloud';
+import { partsNote } from './map_parts';
+import { COLOR_MODES, IMAGE_COLOR } from './point_cloud';
 import { decode } from './protocol';
+import { ScaleBar } from './scale_bar';
 import { Timeline } from './timeline';
 
 const SWITCHES: { setting: Switch; label: string; color?: string }[] = [
@@ -17,6 +19,8 @@ const SWITCHES: { setting: Switch; label: string; color?: string }[] = [
   { setting: 'covisibility', label: 'covisibility', color: '#7d8fd0' },
   { setting: 'corrected', label: 'map with loops' },
 ];
+
+const OF_LOOPS: Switch[] = ['loops', 'corrected', 'trajectory'];
 
 function make<K extends keyof HTMLElementTagNameMap>(
   tag: K, properties: Partial<HTMLElementTagNameMap[K]> = {}, ...children: (Node | string)[]
@@ -39,7 +43,7 @@ function takeRecording(): ArrayBuffer {
 function makeTools(root: HTMLElement, map: MapView, model: MapModel): HTMLElement {
   const tools = make('div', { className: 'map-tools' });
   for (const { setting, label, color } of SWITCHES) {
-    if ((setting === 'loops' || setting === 'corrected') && model.loops.length === 0) continue;
+    if (OF_LOOPS.includes(setting) && model.loops.length === 0) continue;
     if (setting === 'truth' && !model.alignment) continue;
     const box = make('input', { type: 'checkbox', id: `show-${setting}`, checked: map.settings[setting] });
     box.addEventListener('change', () => map.set({ [setting]: box.checked }));
@@ -48,7 +52,8 @@ function makeTools(root: HTMLElement, map: MapView, model: MapModel): HTMLElemen
     tools.append(make('label', {}, box, ...(color ? [mark] : []), label));
   }
   const color = make('select', { ariaLabel: 'Color of the points', id: 'color' });
-  COLOR_MODES.forEach((mode, i) => color.add(new Option(mode, String(i))));
+  COLOR_MODES.forEach((mode, i) => (i !== IMAGE_COLOR || model.hasColors) && color.add(new Option(mode, String(i))));
+  color.value = String(map.settings.colorMode);
   color.addEventListener('change', () => map.set({ colorMode: Number(color.value) }));
   const button = (text: string, title: string, action: () => void) => {
     const made = make('button', { textContent: text, title });
@@ -102,18 +107,22 @@ function show(root: HTMLElement): void {
   const model = new MapModel();
   const canvas = make('canvas', { tabIndex: 0, ariaLabel: 'The map in three dimensions' });
   root.replaceChildren(canvas);
-  const map = new MapView(canvas, model);
+  const scaleBar = new ScaleBar(make('div'), model);
+  const map: MapView = new MapView(canvas, model, () => scaleBar.update(map));
   for (const message of decode(takeRecording())) model.apply(message);
   map.sync(model.takeChanges());
+  if (model.hasColors) map.set({ colorMode: IMAGE_COLOR });
   const { element, timeline } = makeTimeline(model, map);
-  root.append(makeTools(root, map, model), element);
+  root.append(makeTools(root, map, model), element, scaleBar.element);
+  const note = partsNote(model.places);
+  if (note) root.append(make('div', { className: 'map-parts', textContent: note }));
   keepWheelForThePage(root);
   timeline.update();
   map.fit();
   const figures = () => ({
     frames: model.frames.length, keyframes: model.keyframes.length, points: map.pointCount, loops: model.loops.length,
     segments: { ...map.stats.segments }, edges: map.edgeCounts, settings: { ...map.settings }, cutoff: timeline.cutoff,
-    renders: map.stats.renders, readyMs: performance.now(),
+    parts: model.places.parts, scale: scaleBar.element.textContent, renders: map.stats.renders, readyMs: performance.now(),
   });
   const ready = figures().readyMs;
   Object.assign(window, {

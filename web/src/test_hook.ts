@@ -26,6 +26,8 @@ export function installTestHook({ model, map, image, panel, timeline, connection
     keyframes: model.keyframes.length,
     points: map.pointCount,
     loops: model.loops.length,
+    parts: model.places.parts,
+    scale: document.getElementById('scale')!.textContent,
     segments: { ...map.stats.segments },
     edges: map.edgeCounts,
     image: { ...image.shown },

@@ -92,6 +92,9 @@ async function testRun() {
   assert.ok(end.truth && end.truth.ate < 0.1, `ground truth: ${JSON.stringify(end.truth)}`);
   assert.ok(end.image.candidates > 50 && end.image.corners > 50, 'candidates and corners are missing in the image');
   assert.ok(end.log > 0, 'the log is empty');
+  assert.match(await page.textContent('#ate'), /^[0-9.e-]+ m$/);
+  assert.match(end.scale, /^[0-9.]+ (k|c|m)?m$/, 'the ground truth tells the scale');
+  assert.equal(end.parts, 1);
   await page.waitForTimeout(800);
   await picture(page, 'finished');
   await testToggles(page);
@@ -103,20 +106,22 @@ async function testRun() {
 async function testToggles(page) {
   await page.keyboard.press('t');
   await page.setChecked('#show-grid', false);
-  for (const [setting, color, name] of [['odometry', RED, 'odometry'], ['trajectory', YELLOW, 'trajectory'],
-    ['truth', GREEN, 'ground truth'], ['frustums', WHITE, 'camera']]) {
+  // Before a loop is closed the corrected trajectory is the odometry's, and is not drawn over it.
+  const hasLoops = (await figures(page)).loops > 0;
+  assert.equal(await page.isVisible('#show-trajectory'), hasLoops);
+  const lines = [['odometry', RED, 'odometry'], ['truth', GREEN, 'ground truth'], ['frustums', WHITE, 'camera']];
+  if (hasLoops) lines.push(['trajectory', YELLOW, 'trajectory']);
+  else assert.ok(await pixels(page, YELLOW) < 40, 'there is a trajectory with loops, but no loop');
+  const switches = ['odometry', 'truth', 'frustums', 'points', ...(hasLoops ? ['trajectory', 'loops'] : [])];
+  for (const [setting, color, name] of lines) {
     // One at a time: where they lie on each other, only the last is seen.
-    for (const other of ['odometry', 'trajectory', 'truth', 'frustums', 'points', 'loops']) {
-      await page.setChecked(`#show-${other}`, other === setting);
-    }
+    for (const other of switches) await page.setChecked(`#show-${other}`, other === setting);
     const shown = await pixels(page, color);
     await page.setChecked(`#show-${setting}`, false);
     const hidden = await pixels(page, color);
     assert.ok(shown > 40 && hidden < shown / 10, `${name}: ${shown} pixels when shown, ${hidden} when hidden`);
   }
-  for (const setting of ['odometry', 'trajectory', 'truth', 'frustums', 'points', 'loops']) {
-    await page.setChecked(`#show-${setting}`, true);
-  }
+  for (const setting of switches) await page.setChecked(`#show-${setting}`, true);
   await page.keyboard.press('1');
   assert.equal((await figures(page)).settings.points, false, 'the key 1 hides the points');
   await page.keyboard.press('1');
@@ -170,6 +175,7 @@ async function testReconnect({ run, url, page, out, end }) {
   assert.equal(await replay.url, url);
   const again = await until(page, 'the page connects again', (f) => f.connected && f.replay && f.frames === end.frames);
   serverIsDown = false;
+  assert.ok(!(await page.isVisible('#image-card')), 'a replay has no images to show');
   assert.equal(again.keyframes, end.keyframes);
   assert.ok(!(await page.isVisible('#banner')));
   await page.evaluate(() => window.ldsoTest.seek(0));

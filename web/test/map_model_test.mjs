@@ -13,8 +13,8 @@ const { outputFiles } = await esbuild.build({
 const { MapModel } = await import('data:text/javascript,' + encodeURIComponent(outputFiles[0].text));
 
 const at = (x, s = 1) => ({ t: [x, 0, 0], q: [0, 0, 0, 1], s });
-const points = { count: 0, xyz: new Float32Array(), depthStddev: new Float32Array(), intensity: new Uint8Array(), isCorner: new Uint8Array() };
-const keyframe = (id) => ({ kind: 'keyframe', id, timestamp: id, pose: at(id), points, links: [] });
+const points = { count: 0, xyz: new Float32Array(), depthStddev: new Float32Array(), intensity: new Uint8Array(), isCorner: new Uint8Array(), colors: null };
+const keyframe = (id, segment = 0) => ({ kind: 'keyframe', id, timestamp: id, pose: at(id), points, links: [], segment });
 const poses = (atFrame, correction, ...list) => ({ kind: 'poses', atFrame, correction, poses: list.map(([id, pose]) => ({ id, pose })) });
 const x = (model, id) => model.correctedPose(model.keyframe(id)).t[0];
 
@@ -55,4 +55,22 @@ assert.equal(x(model, 10), 13);
 assert.equal(model.takeChanges().poses, true);
 model.apply(keyframe(40));
 assert.equal(x(model, 40), 44, 'a pose may come before its keyframe');
+// Two segments that no loop joins lie apart, the larger one where it was; a loop brings them together.
+const lost = someRun();
+for (const id of [30, 40]) lost.apply({ ...keyframe(id, 1), pose: at(id - 30) });
+lost.apply(poses(45, at(0), [20, at(21)], [30, at(1)], [40, at(11)]));
+lost.takeChanges();
+assert.equal(lost.places.parts, 2);
+assert.equal(x(lost, 10), 12);
+assert.ok(x(lost, 30) > x(lost, 20) + 1, 'the smaller map lies beside the larger one');
+assert.equal(Math.round(x(lost, 40) - x(lost, 30)), 10);
+const odometry = (id) => lost.odometryPose(lost.keyframe(id)).t[0];
+assert.ok(odometry(30) > odometry(20));
+lost.apply({ kind: 'loops', loops: [{ keyframeId: 40, candidateId: 0, atFrame: 45, inliers: 1, score: 1 }] });
+lost.takeChanges();
+assert.equal(lost.places.parts, 1);
+assert.equal(x(lost, 30), 1);
+assert.ok(odometry(30) > odometry(20), 'before loop closing they still have nothing to do with each other');
+lost.setTime(44);
+assert.equal(lost.places.parts, 2, 'at that time nothing was joined');
 console.log('all is well');

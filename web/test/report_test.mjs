@@ -56,14 +56,19 @@ async function testMap(page) {
   const shown = await until(page, 'all trajectories are drawn', (f) =>
     f.segments.odometry >= 40 && f.segments.trajectory >= 40 && f.segments.truth > 40);
   assert.ok(shown.frames >= 50 && shown.keyframes >= 5 && shown.points > 1000, JSON.stringify(shown));
-  for (const [setting, color] of [['odometry', RED], ['trajectory', YELLOW], ['truth', GREEN]]) {
-    for (const other of ['odometry', 'trajectory', 'truth', 'points']) await page.setChecked(`#show-${other}`, other === setting);
+  assert.match(shown.scale, /^[0-9.]+ (k|c|m)?m$/, 'the ground truth tells the scale');
+  // Before a loop is closed the corrected trajectory is the odometry's: there is nothing to switch.
+  const lines = [['odometry', RED], ['truth', GREEN], ...(shown.loops > 0 ? [['trajectory', YELLOW]] : [])];
+  assert.equal(await page.locator('#show-trajectory').count(), shown.loops > 0 ? 1 : 0);
+  const switches = ['points', ...lines.map(([setting]) => setting)];
+  for (const [setting, color] of lines) {
+    for (const other of switches) await page.setChecked(`#show-${other}`, other === setting);
     const visible = await pixels(page, color);
     await page.setChecked(`#show-${setting}`, false);
     const hidden = await pixels(page, color);
     assert.ok(visible > 40 && hidden < visible / 10, `${setting}: ${visible} pixels when shown, ${hidden} when hidden`);
   }
-  for (const setting of ['odometry', 'trajectory', 'truth', 'points']) await page.setChecked(`#show-${setting}`, true);
+  for (const setting of switches) await page.setChecked(`#show-${setting}`, true);
   await page.evaluate(() => window.ldsoTest.seek(30));
   await until(page, 'the slider shortens the trajectory', (f) =>
     f.cutoff === 30 && f.segments.trajectory < shown.segments.trajectory);

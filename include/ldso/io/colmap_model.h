@@ -1,14 +1,16 @@
 #pragma once
 
-// A sparse model as COLMAP's text files, which Nerfstudio and programs for Gaussian splatting read as well.
+// A sparse model as COLMAP's files, which Nerfstudio and programs for Gaussian splatting read as well.
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ldso/calibration.h"
+#include "ldso/rgb.h"
 #include "ldso/se3.h"
 
 namespace ldso {
@@ -28,6 +30,8 @@ struct ColmapImage {
 struct ColmapPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   std::uint8_t intensity = 0;
+  std::optional<Rgb> color = std::nullopt;  ///< In place of the intensity, if known.
+  double error = -1;  ///< Mean distance of where it is seen from where it should be [px]; -1: unknown.
 };
 
 /// All images are of one camera.
@@ -41,9 +45,10 @@ struct ColmapModel {
 /// names (PINHOLE, FOV, OPENCV, OPENCV_FISHEYE); its pixel centres are at halves.
 std::string colmap_camera(const CameraCalibration& camera);
 
-/// Writes cameras.txt, images.txt and points3D.txt to the folder, which is created. Points that no image shows are left
-/// out: COLMAP would not read them. Errors of reprojection are given as -1, not computed. Throws Error if an image has
-/// a name with a blank or line break, which the format cannot hold, or if a file cannot be written.
+/// Writes cameras, images and points3D to the folder, which is created: as .bin, which COLMAP takes first, and as .txt
+/// for people and simple programs; both say the same. Points that no image shows are left out: COLMAP would not read
+/// them. Throws Error if an image has a name with a blank or line break, which the text format cannot hold, or if a
+/// file cannot be written.
 void write_colmap_model(const std::filesystem::path& folder, const ColmapModel& model);
 
 }  // namespace ldso

@@ -8,6 +8,7 @@
 
 #include "ldso/frame_source.h"
 #include "ldso/io/trajectory_file.h"
+#include "ldso/rgb.h"
 
 namespace ldso {
 
@@ -16,6 +17,9 @@ class Dataset : public FrameSource {
  public:
   /// Of the frame's file or archive entry, within its folder; where there is none, the frame's number.
   virtual std::string frame_name(int index) const { return std::to_string(index); }
+  /// Frame `index` in colour, its rows and columns those of read(), nothing masked; three equal channels where there is
+  /// no colour. For what shows a map or learns from its images: tracking takes grey levels. Throws Error likewise.
+  virtual Image<Rgb> read_color(int index) const;
   /// Poses of this camera, if the sequence carries them; they need not be at the frames' times.
   virtual std::optional<Trajectory> ground_truth() const = 0;
   virtual std::string format_name() const = 0;

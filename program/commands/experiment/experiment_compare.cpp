@@ -30,7 +30,6 @@ struct CompareArguments {
 
 /// Results of an experiment's folder, or of a file that `summarize` has written.
 std::vector<JobResult> load_results(const fs::path& path) {
-  if (!fs::exists(path)) throw Error(path.string(), "there is no such folder or file", "");
   if (!fs::is_directory(path)) return read_results(path);
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   ExperimentResults results = collect_results(path, threads);
@@ -46,7 +45,18 @@ void print_names(std::ostream& out, const std::string& what, const std::vector<s
   out << "\n";
 }
 
+/// Names all that are missing, so that nobody learns of the second after having mended the first.
+void check_present(const std::vector<fs::path>& paths) {
+  std::string missing;
+  for (const fs::path& path : paths) {
+    if (!fs::exists(path)) missing += (missing.empty() ? "" : ", ") + path.string();
+  }
+  if (!missing.empty())
+    throw Error(missing, "there is no such folder or file", "give the folders of two `ldso experiment run`");
+}
+
 void compare(const CompareArguments& a, int& exit_code) {
+  check_present({a.a, a.b});
   const ExperimentComparison comparison = compare_experiments(load_results(a.a), load_results(a.b));
   std::cout << table_markdown(comparison_table(comparison)) << "\n";
   std::cout << format_text("overall       %+.2f %% (geometric mean of the changes of the medians), p %.4f, %zu runs\n",

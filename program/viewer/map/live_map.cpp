@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "util/disjoint_sets.h"
+
 namespace ldso {
 namespace {
 
@@ -21,6 +23,8 @@ void LiveMap::start(protocol::Hello hello) {
   frames_.clear();
   poses_.clear();
   history_.clear();
+  loops_.clear();
+  newest_segment_ = 0;
   pose_revision_ = 0;
   correction_ = Sim3d();
   newest_frame_ = -1;
@@ -30,7 +34,10 @@ void LiveMap::start(protocol::Hello hello) {
 }
 
 void LiveMap::add(const protocol::Keyframe& keyframe) {
-  poses_[keyframe.id].T_world_camera = keyframe.T_world_camera;
+  PoseEntry& entry = poses_[keyframe.id];
+  entry.T_world_camera = keyframe.T_world_camera;
+  entry.segment = keyframe.segment;
+  newest_segment_ = std::max(newest_segment_, keyframe.segment);
   add_message(encode(keyframe));
 }
 
@@ -50,6 +57,7 @@ void LiveMap::add(LoopEvent loops) {
   history_.add({newest_frame_, correction_, loops.poses});
   std::vector<protocol::Loop> closed;
   for (const LoopRecord& loop : loops.accepted) {
+    loops_.emplace_back(loop.keyframe_id, loop.candidate_id);
     closed.push_back(
         {loop.keyframe_id, loop.candidate_id, newest_frame_, loop.inliers, static_cast<float>(loop.score)});
   }
@@ -124,13 +132,33 @@ Bytes LiveMap::snapshot() const {
   return all;
 }
 
+std::vector<bool> LiveMap::in_main_part() const {
+  const auto count = static_cast<std::size_t>(newest_segment_) + 1;
+  const auto segment_of = [&](std::int64_t keyframe) {
+    const auto found = poses_.find(keyframe);
+    return static_cast<std::size_t>(found != poses_.end() ? found->second.segment : 0);
+  };
+  DisjointSets parts(count);
+  for (const auto& [a, b] : loops_) parts.join(segment_of(a), segment_of(b));
+  std::vector<std::size_t> sizes(count, 0);
+  for (const auto& [id, entry] : poses_) ++sizes[parts.find(static_cast<std::size_t>(entry.segment))];
+  const auto largest = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<bool> is_in(count);
+  for (std::size_t i = 0; i < count; ++i) is_in[i] = parts.find(i) == largest;
+  return is_in;
+}
+
 Trajectory LiveMap::trajectory() const {
+  const std::vector<bool> is_shown = in_main_part();
   std::map<std::int64_t, StampedPose> by_id;
   for (const FrameEvent& event : frames_) {
     const FrameRecord& frame = event.frame;
     if (!event.T_world_camera) continue;
+    const auto pose = poses_.find(frame.keyframe_id);
+    // A keyframe that has not left the window is of the newest segment.
+    if (!is_shown[static_cast<std::size_t>(pose != poses_.end() ? pose->second.segment : newest_segment_)]) continue;
     Sim3d S = correction_ * Sim3d(*event.T_world_camera);
-    if (const auto pose = poses_.find(frame.keyframe_id); pose != poses_.end()) {
+    if (pose != poses_.end()) {
       const PoseEntry& entry = pose->second;
       S = (entry.revision > 0 ? entry.S_world_keyframe : correction_ * Sim3d(entry.T_world_camera)) *
           Sim3d(frame.T_keyframe_frame);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ldso/io/trajectory_file.h"
@@ -55,7 +56,8 @@ class LiveMap {
   /// All messages that last, as a page that joins now would get them.
   Bytes snapshot() const;
 
-  /// Where the frames are by what is known now, in the order of their ids.
+  /// Where the frames are by what is known now, in the order of their ids: of the largest part of the map, for where
+  /// the others lie, which no loop has joined to it, nobody knows.
   Trajectory trajectory() const;
 
   const protocol::Hello& hello() const { return hello_; }
@@ -73,11 +75,14 @@ class LiveMap {
     SE3d T_world_camera;  ///< Of the odometry.
     Sim3d S_world_keyframe;
     std::uint64_t revision = 0;  ///< When the corrected pose was set last; 0: there is none.
+    int segment = 0;
   };
   struct Latest {
     std::uint64_t revision = 0;
     SharedBytes message;
   };
+  /// By segment: whether it belongs to the part with most keyframes.
+  std::vector<bool> in_main_part() const;
   SharedBytes frames_from(std::size_t& position) const;
   SharedBytes poses_since(std::uint64_t& revision) const;
 
@@ -88,6 +93,8 @@ class LiveMap {
   std::map<std::int64_t, PoseEntry> poses_;  ///< By keyframe id.
   std::uint64_t pose_revision_ = 0;
   PoseHistory history_{kMostPoses};
+  std::vector<std::pair<std::int64_t, std::int64_t>> loops_;  ///< Keyframes that are the same place.
+  int newest_segment_ = 0;
   Sim3d correction_;
   std::int64_t newest_frame_ = -1;
   std::array<Latest, kLatestSlots> latest_;

@@ -83,6 +83,28 @@ TEST(LiveMap, ComesInPartsThatLoseNothing) {
   EXPECT_EQ(seen.size(), 101u);
 }
 
+TEST(LiveMap, TheTrajectoryIsThatOfTheLargestPart) {
+  LiveMap map;
+  map.start({});
+  for (int id = 0; id < 5; ++id) {
+    protocol::Keyframe added = keyframe(id);
+    added.segment = id < 3 ? 0 : 1;
+    map.add(added);
+    FrameEvent event;
+    event.frame.frame_id = event.frame.keyframe_id = id;
+    event.frame.state = TrackingState::kTracked;
+    event.T_world_camera = SE3d();
+    map.add(event);
+  }
+  EXPECT_EQ(map.trajectory().size(), 3u);
+  LoopEvent loop;
+  loop.accepted.emplace_back();
+  loop.accepted.back().keyframe_id = 4;
+  loop.accepted.back().candidate_id = 1;
+  map.add(loop);
+  EXPECT_EQ(map.trajectory().size(), 5u);
+}
+
 TEST(LiveMap, OfViewsOnlyTheNewestIsSent) {
   LiveMap map;
   map.start({});

@@ -127,6 +127,8 @@ Bytes encode(const Hello& hello) {
   for (const double x : {hello.camera.fx, hello.camera.fy, hello.camera.cx, hello.camera.cy}) out.put(x);
   out.put_count(hello.name.size());
   out.put_text(hello.name);
+  out.align(8);
+  out.put(hello.metres_per_unit);
   return out.finish();
 }
 
@@ -139,6 +141,9 @@ Bytes encode(const Keyframe& keyframe) {
   out.put_count(keyframe.links.size());
   out.put_all(keyframe.links);
   out.put_points(keyframe);
+  out.put(static_cast<std::uint32_t>(keyframe.segment));
+  out.put(static_cast<std::uint32_t>(keyframe.colors.empty() ? 0 : 1));
+  out.put_all(keyframe.colors);
   return out.finish();
 }
 
@@ -306,6 +311,9 @@ Hello decode_hello(std::span<const std::uint8_t> payload, const std::string& nam
   if (c.width < 0 || c.height < 0 || !is_sane(c.fx) || !is_sane(c.fy) || !is_sane(c.cx) || !is_sane(c.cy))
     in.fail("its camera is none");
   hello.name = in.get_text(in.get<std::uint32_t>());
+  in.get_bytes(in.left() % 8);  // Zeros up to a multiple of 8; the first versions end there.
+  if (in.left() > 0) hello.metres_per_unit = in.get<double>();
+  if (!(hello.metres_per_unit >= 0) || !is_sane(hello.metres_per_unit)) in.fail("its scale is none");
   return hello;
 }
 
@@ -328,6 +336,10 @@ Keyframe decode_keyframe(std::span<const std::uint8_t> payload, const std::strin
   get_all(in, points, keyframe.depth_stddev);
   get_all(in, points, keyframe.intensity);
   get_all(in, points, keyframe.is_corner);
+  in.get_bytes(in.left() % 8);  // Zeros up to a multiple of 8; the first versions end there.
+  if (in.left() == 0) return keyframe;
+  keyframe.segment = static_cast<int>(in.get<std::uint32_t>());
+  if (in.get<std::uint32_t>() != 0) get_all(in, points, keyframe.colors);
   return keyframe;
 }
 

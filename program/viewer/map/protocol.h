@@ -12,6 +12,7 @@
 #include "ldso/calibration.h"
 #include "ldso/observer.h"
 #include "ldso/records.h"
+#include "ldso/rgb.h"
 #include "ldso/sim3.h"
 #include "util/bytes.h"
 
@@ -45,7 +46,8 @@ struct Hello {
   Mode mode = Mode::kRun;
   bool has_control = false;  ///< Whether commands are of use.
   PinholeIntrinsics camera;
-  std::string name;  ///< Of the sequence.
+  std::string name;            ///< Of the sequence.
+  double metres_per_unit = 0;  ///< By a length that was given; 0: nobody knows.
 };
 
 /// A keyframe with its points in its own coordinates, so that a changed pose moves them.
@@ -58,6 +60,8 @@ struct Keyframe {
   std::vector<std::uint8_t> intensity;
   std::vector<std::uint8_t> is_corner;  ///< 0 or 1.
   std::vector<std::int64_t> links;      ///< Keyframes that see the same points.
+  int segment = 0;                      ///< Of the run: the map was lost between two of them (KeyframeUpdate).
+  std::vector<Rgb> colors = {};         ///< Of the points, if the images have colour and were read again; else empty.
 };
 
 /// Points without a usable depth are left out.

@@ -121,6 +121,22 @@ TEST(Protocol, KeyframeMessage) {
   EXPECT_FLOAT_EQ(in.get<float>(), keyframe.points[0].x());
 }
 
+TEST(Protocol, KeyframesOfTheFirstVersionsHaveNeitherSegmentNorColours) {
+  Keyframe keyframe =
+      to_keyframe(7, some_pose(), std::vector<MapPoint>(3, {1, 2, 0.5f, 0.1f, 9, true}), {100, 80, 50, 60, 49.5, 39.5});
+  const Bytes plain = encode(keyframe);
+  const std::span<const std::uint8_t> payload = only_message(plain).payload;
+  EXPECT_EQ(decode_keyframe(payload.first(payload.size() - 8), "test").points.size(), 3u);
+  keyframe.segment = 2;
+  keyframe.colors = {Rgb{1, 2, 3}, Rgb{4, 5, 6}, Rgb{7, 8, 9}};
+  const Bytes bytes = encode(keyframe);
+  const Keyframe read = decode_keyframe(only_message(bytes).payload, "test");
+  EXPECT_EQ(read.segment, 2);
+  EXPECT_EQ(read.colors, keyframe.colors);
+  const Bytes cut(bytes.begin(), bytes.end() - 8);
+  EXPECT_THROW(decode_keyframe(std::span(cut).subspan(8), "test"), Error);
+}
+
 TEST(Protocol, FrameMessage) {
   FrameEvent event;
   event.frame.frame_id = 11;

@@ -2,11 +2,19 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "io/images/image_file.h"
 #include "ldso/error.h"
 
 namespace ldso {
+namespace {
+
+/// Timestamps in a trajectory have nine decimals.
+constexpr double kSameTime = 2e-9;
+
+}  // namespace
 
 RecordedMap decode_recorded_map(const Bytes& recording, const std::string& name) {
   using protocol::MessageType;
@@ -35,6 +43,37 @@ RecordedMap decode_recorded_map(const Bytes& recording, const std::string& name)
     map.corrected.push_back(pose != corrected.end() ? pose->second : correction * Sim3d(keyframe.T_world_camera));
   }
   return map;
+}
+
+Bytes with_scale(const Bytes& recording, double metres_per_unit) {
+  Bytes result;
+  for (const protocol::Message& message : protocol::split(recording, "recording")) {
+    if (message.type == protocol::MessageType::kHello) {
+      protocol::Hello hello = protocol::decode_hello(message.payload, "recording");
+      hello.metres_per_unit = metres_per_unit;
+      const Bytes scaled = encode(hello);
+      result.insert(result.end(), scaled.begin(), scaled.end());
+    } else {
+      const std::span<const std::uint8_t> bytes = protocol::whole(message);
+      result.insert(result.end(), bytes.begin(), bytes.end());
+    }
+  }
+  return result;
+}
+
+void keep_frames_of(const Trajectory& trajectory, RecordedMap& map) {
+  std::set<double> times;
+  for (const StampedPose& pose : trajectory) times.insert(pose.timestamp);
+  RecordedMap kept;
+  kept.camera = map.camera;
+  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
+    const double time = map.keyframes[i].timestamp;
+    const auto found = times.lower_bound(time - kSameTime);
+    if (found == times.end() || *found > time + kSameTime) continue;
+    kept.keyframes.push_back(std::move(map.keyframes[i]));
+    kept.corrected.push_back(map.corrected[i]);
+  }
+  map = std::move(kept);
 }
 
 void scale_map(double factor, RecordedMap& map) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "ldso/io/trajectory_file.h"
 #include "viewer/map/protocol.h"
 
 namespace ldso {
@@ -16,6 +17,12 @@ struct RecordedMap {
   /// After loop closing, in the same order. Their units differ: points of a keyframe are to be multiplied with them.
   std::vector<Sim3d> corrected;
 };
+
+/// The recording with the scale that became known at the end of the run.
+Bytes with_scale(const Bytes& recording, double metres_per_unit);
+
+/// Leaves the keyframes whose times are among those of the trajectory.
+void keep_frames_of(const Trajectory& trajectory, RecordedMap& map);
 
 /// All lengths become `factor` times as large.
 void scale_map(double factor, RecordedMap& map);

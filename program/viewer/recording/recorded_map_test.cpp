@@ -41,6 +41,19 @@ TEST(RecordedMap, HoldsWhatWasRecorded) {
   EXPECT_TRUE(read.corrected[1].matrix().isApprox((correction * Sim3d(wanted.T_world_camera)).matrix(), 1e-12));
 }
 
+TEST(RecordedMap, KeepsTheKeyframesOfATrajectory) {
+  RecordedMap map;
+  for (int i = 0; i < 4; ++i) {
+    map.keyframes.push_back(keyframe(i));
+    map.keyframes.back().timestamp = 1e9 + 0.1 * i;
+    map.corrected.emplace_back(map.keyframes.back().T_world_camera);
+  }
+  keep_frames_of({{1e9 + 0.1, SE3d()}, {1e9 + 0.15, SE3d()}, {1e9 + 0.3, SE3d()}}, map);
+  ASSERT_EQ(map.keyframes.size(), 2u);
+  EXPECT_EQ(map.keyframes[0].id, 1);
+  EXPECT_EQ(map.corrected[1].translation().x(), 3);
+}
+
 TEST(RecordedMap, WhatIsNoRecordingIsRefused) {
   EXPECT_THROW(decode_recorded_map({}, "test"), Error);
   LiveMap map;

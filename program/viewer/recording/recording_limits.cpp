@@ -60,6 +60,7 @@ Bytes thinned_keyframe(const Message& message, int stride, const std::string& na
   keep_every(keyframe.depth_stddev, step);
   keep_every(keyframe.intensity, step);
   keep_every(keyframe.is_corner, step);
+  keep_every(keyframe.colors, step);
   return encode(keyframe);
 }
 

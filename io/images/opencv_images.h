@@ -1,10 +1,11 @@
 #pragma once
 
-// Frames of OpenCV's video readers as grey images.
+// OpenCV's images as ours.
 
 #include <opencv2/core.hpp>
 
 #include "ldso/image.h"
+#include "ldso/rgb.h"
 
 namespace ldso {
 
@@ -13,5 +14,8 @@ cv::Mat to_grey(const cv::Mat& frame);
 
 /// Of what to_grey() gives.
 Image<float> to_image(const cv::Mat& grey);
+
+/// Of 8-bit images with one, three or four channels.
+Image<Rgb> to_rgb(const cv::Mat& image);
 
 }  // namespace ldso

@@ -1,4 +1,4 @@
-#include "io/images/opencv_grey.h"
+#include "io/images/opencv_images.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,6 +20,21 @@ Image<float> to_image(const cv::Mat& grey) {
                    [](std::uint8_t v) { return static_cast<float>(v); });
   }
   return image;
+}
+
+Image<Rgb> to_rgb(const cv::Mat& image) {
+  const int conversion = image.channels() == 1   ? cv::COLOR_GRAY2RGB
+                         : image.channels() == 4 ? cv::COLOR_BGRA2RGB
+                                                 : cv::COLOR_BGR2RGB;
+  cv::Mat rgb;
+  cv::cvtColor(image, rgb, conversion);
+  Image<Rgb> result(rgb.cols, rgb.rows);
+  for (int y = 0; y < rgb.rows; ++y) {
+    std::transform(rgb.ptr<cv::Vec3b>(y), rgb.ptr<cv::Vec3b>(y) + rgb.cols, result.row(y), [](const cv::Vec3b& v) {
+      return Rgb{v[0], v[1], v[2]};
+    });
+  }
+  return result;
 }
 
 }  // namespace ldso
