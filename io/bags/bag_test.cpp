@@ -192,7 +192,7 @@ TEST(Bag, OfSeveralFilesIsOne) {
 
 TEST(Bag, WhatIsNoneIsRefused) {
   const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& name, const std::string& content) {
+  const auto refusal = [&](const char* name, const std::string& content) {
     write_text(folder / name, content);
     EXPECT_TRUE(is_bag(folder / name));
     return error_of([&] { open_bag(folder / name); });
@@ -200,9 +200,14 @@ TEST(Bag, WhatIsNoneIsRefused) {
   EXPECT_NE(refusal("empty.bag", "").find("empty"), std::string::npos);
   EXPECT_NE(refusal("text.mcap", "hello\n").find("is no bag"), std::string::npos);
   EXPECT_NE(refusal("old.bag", "#ROSBAG V1.2\n").find("old format"), std::string::npos);
-  EXPECT_NE(refusal("a.db3.zstd", "\x28\xb5\x2f\xfd").find("zstd -d"), std::string::npos);
-  EXPECT_NE(refusal("only_magic", std::string(kRos1BagMagic) + "xyz").find("no message"), std::string::npos);
-  EXPECT_NE(refusal("other.db3", std::string(kSqliteMagic) + std::string(200, 'x')).find("SQLite"), std::string::npos);
+  const std::string zstd_magic{0x28, static_cast<char>(0xb5), 0x2f, static_cast<char>(0xfd)};
+  EXPECT_NE(refusal("a.db3.zstd", zstd_magic).find("zstd -d"), std::string::npos);
+  std::string magic_alone(kRos1BagMagic);
+  magic_alone.append(3, 'x');
+  EXPECT_NE(refusal("only_magic", magic_alone).find("no message"), std::string::npos);
+  std::string no_sqlite(kSqliteMagic);
+  no_sqlite.append(200, 'x');
+  EXPECT_NE(refusal("other.db3", no_sqlite).find("SQLite"), std::string::npos);
 }
 
 }  // namespace
