@@ -70,7 +70,7 @@ void CalibrationCourse::begin_anew() {
          "the calibration stands. Refused: " + search_.refusal() + "; starting again with it");
   // What takes the place of the given one was proven when it was found: it stays as it was found then.
   if (!elsewhere_proof_.empty()) return;
-  const double needed = kOtherSignificance * settings_.self_calibration.significance;
+  const double needed = kOtherSignificance * std::max(kFoundSignificance, settings_.self_calibration.significance);
   if (!is_guess() && (search_.deviations() > needed || search_.is_disputed())) look_elsewhere();
 }
 

@@ -83,7 +83,7 @@ class Pass {
   bool begins_anew() {
     const CalibrationFindings findings = watch_->findings();
     log_to(log_, LogLevel::kInfo,
-           format_text("%zu windows contradict the calibration by %.1f standard deviations, each other by %.1f",
+           format_text("%zu windows are off the calibration by %.1f standard deviations, off each other by %.1f",
                        findings.fits.size(), findings.deviations, std::sqrt(findings.disagreement)));
     const CalibrationSearch& search = course_->search();
     const bool anew = course_->search().begins_anew(findings);

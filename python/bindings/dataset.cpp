@@ -52,15 +52,14 @@ std::shared_ptr<Dataset> open_sequence_at(const std::filesystem::path& path, int
                                           std::optional<double> fps, const std::string& pattern,
                                           const std::string& topic) {
   const py::gil_scoped_release no_gil;  // A video is looked through.
-  return std::make_shared<SerialDataset>(
-      open_dataset(path, {.start = start,
-                          .end = end,
-                          .stride = stride,
-                          .reverse = reverse,
-                          .calibration_file = calibration,
-                          .fps = fps,
-                          .pattern = pattern,
-                          .topic = topic}));
+  return std::make_shared<SerialDataset>(open_dataset(path, {.start = start,
+                                                             .end = end,
+                                                             .stride = stride,
+                                                             .reverse = reverse,
+                                                             .calibration_file = calibration,
+                                                             .fps = fps,
+                                                             .pattern = pattern,
+                                                             .topic = topic}));
 }
 
 int checked_index(const Dataset& dataset, int index) {
