@@ -78,7 +78,7 @@ TEST(LensCalibration, FindsRadTanFromAChessboard) {
 }
 
 TEST(LensCalibration, FindsFovFromCharuco) {
-  expect_found("charuco:6x5:0.04:0.028", camera_with(CameraModelKind::kFov, 230, {0.92, 0, 0, 0}), LensKind::kFov, 16);
+  expect_found("charuco:6x5:0.04:0.028", camera_with(CameraModelKind::kFov, 230, {0.92, 0, 0, 0}), LensKind::kFov, 24);
 }
 
 TEST(LensCalibration, FindsK3FromAnAprilGrid) {
