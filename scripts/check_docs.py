@@ -22,7 +22,7 @@ SKIPPED = 77
 def pages():
     """All Markdown pages of the project; docs/site/ holds what only the site shows."""
     for folder, names, files in os.walk(ROOT):
-        names[:] = sorted(set(names) - NOT_PAGES)
+        names[:] = sorted(name for name in set(names) - NOT_PAGES if not name.startswith("."))
         for name in sorted(files):
             if name.endswith(".md") and pathlib.Path(folder) != ROOT / "docs/site":
                 yield pathlib.Path(folder) / name
