@@ -93,12 +93,13 @@ void LoopCloser::add(const KeyframeUpdate& update, KeyframeFeatures features, co
   }
   map_.forget_depthless(index);
   if (is_due(index)) optimize();
-  if (earlier_visits(map_, corrected_, index, camera, settings_.detection, settings_.culling.min_share) <
-          settings_.culling.visits ||
-      settings_.culling.visits == 0) {
-    detector_.add(index, features.words);
-  } else {
+  const LoopCullingSettings& culling = settings_.culling;
+  const bool is_redundant = culling.visits > 0 && earlier_visits(map_, corrected_, index, camera, settings_.detection,
+                                                                 culling.min_share) >= culling.visits;
+  if (is_redundant) {
     map_.forget(index);
+  } else {
+    detector_.add(index, features.words);
   }
 }
 

@@ -39,6 +39,11 @@ SelfCalibrationSettings search_settings(const Calibration& given, SelfCalibratio
   return settings;
 }
 
+CalibrationSearch new_search(Calibration begin, const SelfCalibrationSettings& settings) {
+  const SelfCalibrationSettings own = search_settings(begin, settings);
+  return {std::move(begin), own};
+}
+
 void log_trial(const CalibrationSearch& search, const LogSink& log) {
   log_to(log, LogLevel::kWarning,
          (search.given().is_guess() ? "the images speak for " : "the images contradict the calibration: ") +
@@ -54,8 +59,7 @@ CalibrationCourse::CalibrationCourse(const FrameSource& source, const Settings& 
     : source_(source), settings_(settings), log_(log), stop_(stop), search_({}, settings.self_calibration) {
   CameraFinding first = first_calibration(source, settings, log, stop);
   doubt_ = std::move(first.doubt);
-  given_ = std::move(first.calibration);
-  search_ = CalibrationSearch(given_, search_settings(given_, settings.self_calibration));
+  search_ = new_search(std::move(first.calibration), settings.self_calibration);
 }
 
 Calibration CalibrationCourse::calibration() const {
@@ -68,21 +72,22 @@ void CalibrationCourse::begin_anew() {
   if (search_.is_open()) return log_trial(search_, log_);
   log_to(log_, LogLevel::kWarning,
          "the calibration stands. Refused: " + search_.refusal() + "; starting again with it");
-  // What takes the place of the given one was proven when it was found: it stays as it was found then.
-  if (!elsewhere_proof_.empty()) return;
+  // What took the place of the given one was proven when it was found: nothing else is looked for.
+  if (is_guess() || !elsewhere_proof_.empty()) return;
   const double needed = kOtherSignificance * std::max(kFoundSignificance, settings_.self_calibration.significance);
-  if (!is_guess() && (search_.deviations() > needed || search_.is_disputed())) look_elsewhere();
+  if (search_.deviations() > needed || search_.is_disputed()) look_elsewhere();
 }
 
 void CalibrationCourse::look_elsewhere() {
   log_to(log_, LogLevel::kInfo, "it may be another camera's: looking for one that explains the images");
-  const std::optional<OtherCamera> other = find_other_camera(source_, given_, settings_, log_, stop_);
+  const std::optional<OtherCamera> other = find_other_camera(source_, search_.given(), settings_, log_, stop_);
   if (!other) return;
   elsewhere_proof_ = other->proof;
-  search_ = CalibrationSearch(other->calibration, search_settings(other->calibration, settings_.self_calibration));
   log_to(log_, LogLevel::kWarning,
-         "the calibration seems to be another camera's: " + describe_change(given_.camera, other->calibration.camera) +
-             ": " + elsewhere_proof_ + "; starting again with that one");
+         "the calibration seems to be another camera's: " +
+             describe_change(search_.given().camera, other->calibration.camera) + ": " + elsewhere_proof_ +
+             "; starting again with that one");
+  search_ = new_search(other->calibration, settings_.self_calibration);
 }
 
 void CalibrationCourse::note(SequenceRun& run) const {

@@ -44,7 +44,6 @@ class CalibrationCourse {
   const std::atomic<bool>* stop_;
   std::string doubt_;  ///< In a camera that was looked for.
   CalibrationSearch search_;
-  Calibration given_;
   std::string elsewhere_proof_;  ///< What speaks for another camera than the given one, if it was left for that.
 };
 
