@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/board/board_finders.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -46,9 +47,7 @@ std::optional<DiskLevels> levels_of(const cv::Mat& window, const Eigen::Vector2d
     }
   }
   if (ring.empty()) return std::nullopt;
-  const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
-  std::nth_element(ring.begin(), middle, ring.end());
-  const DiskLevels levels{*middle, percentile(window, 0.05)};
+  const DiskLevels levels{upper_median(ring), percentile(window, 0.05)};
   return levels.white - levels.black < kLeastContrast ? std::nullopt : std::optional(levels);
 }
 

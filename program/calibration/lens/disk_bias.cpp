@@ -1,4 +1,5 @@
 #include "calibration/lens/disk_bias.h"
+#include "util/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,9 +50,7 @@ double disk_radius(const std::vector<const BoardView*>& views, const Board& boar
     }
   }
   if (radii.empty()) return guess;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle;
+  return upper_median(radii);
 }
 
 void move_to_centres(const BoardView& view, const Board& board, double radius, const Lens& lens, const SE3d& pose,

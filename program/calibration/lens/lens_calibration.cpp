@@ -8,6 +8,7 @@
 #include "calibration/lens/first_lens.h"
 #include "calibration/lens/lens_adjustment.h"
 #include "ldso/error.h"
+#include "util/median.h"
 
 namespace ldso {
 namespace {
@@ -85,9 +86,7 @@ double usual_distance(const Work& work) {
   for (std::size_t i = 0; i < work.views.size(); ++i) {
     for (const auto& r : residuals_of(work.views[i], lens, work.estimate.poses[i])) distances.push_back(r.norm());
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle / 1.1774;  // The median of a Rayleigh distribution for a deviation of one.
+  return upper_median(distances) / 1.1774;  // The median of a Rayleigh distribution for a deviation of one.
 }
 
 /// Points that are off farther than `most` [px] leave the view; returns how many.
