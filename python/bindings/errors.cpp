@@ -14,23 +14,6 @@ namespace py = pybind11;
 
 namespace {
 
-/// What an error's text is made of: "context: problem; remedy".
-struct Parts {
-  std::string context, problem, remedy;
-};
-
-Parts parts_of(const std::string& text) {
-  Parts parts;
-  const std::size_t colon = text.find(": ");
-  if (colon != text.npos) parts.context = text.substr(0, colon);
-  parts.problem = colon != text.npos ? text.substr(colon + 2) : text;
-  const std::size_t semicolon = parts.problem.rfind("; ");
-  if (semicolon == text.npos) return parts;
-  parts.remedy = parts.problem.substr(semicolon + 2);
-  parts.problem.resize(semicolon);
-  return parts;
-}
-
 /// The file and line that a context names, or None.
 py::tuple file_and_line(const std::string& context) {
   static const std::regex kWithLine("^(.+):([0-9]+)$");
@@ -43,11 +26,10 @@ py::tuple file_and_line(const std::string& context) {
 
 py::object to_python(const py::handle& type, const Error& error) {
   py::object made = type(error.what());
-  const Parts parts = parts_of(error.what());
-  const py::tuple where = file_and_line(parts.context);
-  made.attr("context") = parts.context;
-  made.attr("problem") = parts.problem;
-  made.attr("remedy") = parts.remedy;
+  const py::tuple where = file_and_line(error.context());
+  made.attr("context") = error.context();
+  made.attr("problem") = error.problem();
+  made.attr("remedy") = error.remedy();
   made.attr("file") = where[0];
   made.attr("line") = where[1];
   return made;

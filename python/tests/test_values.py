@@ -19,6 +19,15 @@ def test_errors_have_parts(tmp_path):
     assert isinstance(error, RuntimeError)
     assert error.file == str(camera) and error.line == 1
     assert error.remedy and error.problem and error.remedy in str(error)
+    # A text with several semicolons: of the lens that a calibration of another program has.
+    lens = tmp_path / "camchain.yaml"
+    lens.write_text("cam0:\n  camera_model: pinhole\n  distortion_model: brown9\n  distortion_coeffs: [0, 0, 0, 0]\n"
+                    "  intrinsics: [500, 500, 320, 240]\n  resolution: [640, 480]\n")
+    with pytest.raises(ldso.Error) as unknown:
+        ldso.Calibration.read(lens)
+    error = unknown.value
+    assert str(error) == f"{error.context}: {error.problem}; {error.remedy}"
+    assert "; " in error.remedy and error.remedy.startswith("radtan"), error.remedy
     with pytest.raises(ldso.Error) as missing:
         ldso.open(tmp_path / "nothing")
     assert missing.value.file == str(tmp_path / "nothing") and missing.value.line is None
