@@ -175,6 +175,16 @@ def similarity(p, q):
     return s, r, q.mean(0) - s * r @ p.mean(0)
 
 
+def pose_similarity(found, truth):
+    """The same from poses, rotations from rotations: the positions of a straight way leave its roll open."""
+    u, _, v = np.linalg.svd(sum(rotation(b[3:]) @ rotation(a[3:]).T for a, b in zip(found, truth)))
+    r = u @ np.diag([1, 1, np.sign(np.linalg.det(u @ v))]) @ v
+    p, q = (np.array([x[:3] for x in poses]) for poses in (found, truth))
+    a, b = (p - p.mean(0)) @ r.T, q - q.mean(0)
+    s = (a * b).sum() / max((a ** 2).sum(), 1e-12)
+    return s, r, q.mean(0) - s * r @ p.mean(0)
+
+
 def poses(path):
     return {float(f[0]): np.array(f[1:], float) for f in rows(path)} if path.exists() else {}
 
@@ -192,14 +202,11 @@ def judge(folder, out, damage, depth):
         anchors = [k for k in found if k >= end]
     if len(anchors) < 10:
         return {"wrong": len(found), "missing": len(truth), "resumes": None, "ate": float("inf")}
-    p, q = (np.array([x[k][:3] for k in anchors]) for x in (found, truth))
-    s, r, t = similarity(p, q)
-    k0 = sorted(anchors)[len(anchors) // 2]
-    turn = rotation(truth[k0][3:]) @ (r @ rotation(found[k0][3:])).T  # What is left of the anchors' own rotations.
+    s, r, t = pose_similarity([found[k] for k in anchors], [truth[k] for k in anchors])
     wrong = 0
     for k, pose in found.items():
         off = np.linalg.norm(s * r @ pose[:3] + t - truth[k][:3])
-        relative = (turn @ r @ rotation(pose[3:])).T @ rotation(truth[k][3:])
+        relative = (r @ rotation(pose[3:])).T @ rotation(truth[k][3:])
         angle = np.degrees(np.arccos(np.clip((np.trace(relative) - 1) / 2, -1, 1)))
         wrong += off > WRONG_SHARE * depth or angle > WRONG_DEGREES
     first = min(found)

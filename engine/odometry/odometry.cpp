@@ -150,6 +150,7 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
     const StageTimer timer(times_, "track");
     tracked = tracker_.track(frame, newest());
   }
+  if (!tracked.reason.empty()) relocalize(frame, tracked);
   if (!tracked.reason.empty()) {
     handle_loss(frame, tracked.reason, output);
     return;
@@ -167,6 +168,15 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
   if (!make_keyframe(frame, T_c_w, brightness, output)) {
     restart("the window optimization diverged", T_c_w, output);
   }
+}
+
+void Odometry::relocalize(const std::shared_ptr<const PreparedFrame>& frame, TrackedFrame& tracked) {
+  // What is smeared may agree with the map, but a keyframe of it would not agree with what comes after.
+  if (!pose_finder_ || !has_structure(frame->pyramid) || is_blurred(frame->pyramid)) return;
+  const StageTimer timer(times_, "relocalize");
+  const std::vector<SE3d> starts = pose_finder_->find(window_, *frame);
+  if (starts.empty()) return;
+  if (TrackedFrame found = tracker_.track_from(starts, frame, newest()); found.reason.empty()) tracked = found;
 }
 
 bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w,

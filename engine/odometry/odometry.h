@@ -15,6 +15,7 @@
 #include "odometry/keyframe_maker.h"
 #include "odometry/state/brightness_priors.h"
 #include "odometry/tracking/frame_tracker.h"
+#include "odometry/tracking/pose_finder.h"
 #include "odometry/waiting_frames.h"
 #include "odometry/window/finished_keyframe.h"
 #include "odometry/window_start.h"
@@ -37,6 +38,9 @@ class Odometry {
   /// setting is out of range.
   Odometry(const PinholeIntrinsics& camera, double readout_s, bool calibrated, const Settings& settings,
            ThreadPool& pool);
+
+  /// Who is asked where the camera may be when it is lost; nobody else is in the beginning.
+  void ask(std::shared_ptr<PoseFinder> finder) { pose_finder_ = std::move(finder); }
 
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);
 
@@ -67,6 +71,8 @@ class Odometry {
   /// The last tracked image has come once more.
   void repeat(const PreparedFrame& frame, OdometryOutput& output);
   void track(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output);
+  /// A frame without a pose gets one if the window is recognized in it.
+  void relocalize(const std::shared_ptr<const PreparedFrame>& frame, TrackedFrame& tracked);
   /// False if the window cannot take it: it is no longer usable.
   bool make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w, const Brightness& brightness,
                      OdometryOutput& output);
@@ -93,6 +99,7 @@ class Odometry {
   std::unique_ptr<Initializer> initializer_;
   WaitingFrames waiting_;  ///< Seen since the initializer's first frame, that included.
   FrameTracker tracker_;
+  std::shared_ptr<PoseFinder> pose_finder_;
   WindowTracer tracer_;
   KeyframeMaker keyframe_maker_;
   Window window_;

@@ -7,6 +7,7 @@
 #include "geometry/rolling_shutter.h"
 #include "slam/live_view.h"
 #include "slam/replace_record.h"
+#include "slam/window_relocalizer.h"
 #include "util/log.h"
 
 namespace ldso {
@@ -74,6 +75,9 @@ Pipeline::Pipeline(const Calibration& calibration, const Settings& settings, Log
                                            preprocessor_.photometrically_calibrated(), settings, pool_)),
       revision_(settings.revision, preprocessor_) {
   result_.camera = preprocessor_.output_camera();
+  if (settings.tracking.relocalize)
+    pose_finder_ = std::make_shared<WindowRelocalizer>(settings.loops.matching, settings.loops.pnp);
+  odometry_->ask(pose_finder_);
   if (observer_) observer_->on_start(result_.camera);
   if (has_second_start(settings)) second_ = std::make_unique<SecondStart>(*odometry_, settings, second_pool_);
   if (settings.loops.enabled) loops_ = std::make_unique<LoopThread>(settings.loops, log_, observer_, &preprocessor_);
@@ -106,6 +110,7 @@ void Pipeline::choose_map() {
   log_to(log_, LogLevel::kInfo, verdict);
   add_times(odometry_->times(), result_.stage_times);
   odometry_ = std::move(second->odometry);
+  odometry_->ask(pose_finder_);
   second_pool_.grow(pool_.threads());
   result_.initializations = {second->start};
   for (const FrameRecord& record : second->records) {

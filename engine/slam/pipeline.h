@@ -90,6 +90,7 @@ class Pipeline {
   ThreadPool pool_;
   ThreadPool second_pool_{1};  ///< Of the second map.
   std::unique_ptr<Odometry> odometry_;
+  std::shared_ptr<PoseFinder> pose_finder_;  ///< For when it is lost.
   StartRevision revision_;
   std::unique_ptr<SecondStart> second_;  ///< While both maps are young.
   std::unique_ptr<LoopThread> loops_;    ///< None with loop closing off.

@@ -119,6 +119,7 @@ struct TrackingSettings {
   double least_in_view = 0.05;
   double least_agreement = 0.5;
   double resume_agreement = 0.6;
+  bool relocalize = true;
 
   static constexpr auto fields() {
     using S = TrackingSettings;
@@ -136,6 +137,7 @@ struct TrackingSettings {
               in_range(-1, 1), kMeasured, kExpert),
         field("resume_agreement", &S::resume_agreement, "The same of the first frame after others that were lost.",
               in_range(-1, 1), kMeasured, kExpert),
+        field("relocalize", &S::relocalize, "Look for the corners of the window's points in images of a lost camera."),
     };
   }
 };

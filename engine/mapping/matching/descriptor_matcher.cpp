@@ -220,15 +220,25 @@ std::vector<FeatureMatch> match_by_projection(std::span<const PredictedPoint> po
   return matches;
 }
 
+std::vector<bool> have_common_turn(std::span<const float> turns, float max_turn) {
+  std::vector<float> all;
+  all.reserve(turns.size());
+  for (const float turn : turns) all.push_back(wrapped(turn));
+  const float common = common_turn(all);
+  std::vector<bool> have(turns.size());
+  for (std::size_t i = 0; i < turns.size(); ++i) have[i] = std::abs(wrapped(all[i] - common)) <= max_turn;
+  return have;
+}
+
 std::vector<FeatureMatch> keep_common_turn(std::span<const FeatureMatch> matches, std::span<const MapFeature> a,
                                            std::span<const MapFeature> b, float max_turn) {
   std::vector<float> turns;
   turns.reserve(matches.size());
-  for (const FeatureMatch& m : matches) turns.push_back(wrapped(b[m.b].feature.angle - a[m.a].feature.angle));
-  const float common = common_turn(turns);
+  for (const FeatureMatch& m : matches) turns.push_back(b[m.b].feature.angle - a[m.a].feature.angle);
+  const std::vector<bool> is_common = have_common_turn(turns, max_turn);
   std::vector<FeatureMatch> kept;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (std::abs(wrapped(turns[i] - common)) <= max_turn) kept.push_back(matches[i]);
+    if (is_common[i]) kept.push_back(matches[i]);
   }
   return kept;
 }

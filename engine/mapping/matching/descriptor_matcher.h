@@ -43,6 +43,9 @@ std::vector<FeatureMatch> match_by_projection(std::span<const PredictedPoint> po
                                               std::span<const MapFeature> features,
                                               const LoopSearchSettings& settings = {});
 
+/// Which of `turns` [rad] lie within `max_turn` of the one that most of them have; none that is not finite does.
+std::vector<bool> have_common_turn(std::span<const float> turns, float max_turn);
+
 /// The matches whose features are turned against each other like most are: those whose difference of angles
 /// (b minus a) lies within `max_turn` [rad] of the common one. Keeps the order.
 std::vector<FeatureMatch> keep_common_turn(std::span<const FeatureMatch> matches, std::span<const MapFeature> a,

@@ -71,18 +71,37 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
     last_rmse_.clear();
     tracked.alignment = align(*frame);
   }
-  if (!tracked.alignment.good) {
-    tracked.reason = "no motion explains the image";
-  } else if (tracked.alignment.in_view < settings_.least_in_view) {
-    tracked.reason = "the image shows too little of the map";
-  } else if (aligner_.agreement(*frame, tracked.alignment, wanted_agreement()) < wanted_agreement()) {
-    tracked.reason = "the image does not show what the map does";
-  }
+  tracked.reason = objection(*frame, tracked.alignment, wanted_agreement());
   if (!tracked.reason.empty()) return tracked;
   remember(frame, tracked.alignment, newest);
   tracked.motion = aligner_.motion(*frame, tracked.alignment);
   tracked.motion.first_rmse = first_rmse_;
   return tracked;
+}
+
+TrackedFrame FrameTracker::track_from(const std::vector<SE3d>& starts,
+                                      const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest) {
+  TrackedFrame tracked;
+  tracked.alignment = align_from(starts, *frame, last_brightness_, {});
+  tracked.reason = objection(*frame, tracked.alignment, settings_.resume_agreement);
+  if (!tracked.reason.empty()) return tracked;
+  const SE3d::Tangent velocity = velocity_, keyframe_velocity = newest.velocity;
+  remember(frame, tracked.alignment, newest);
+  // The camera did not move here from where it was last seen in the time since.
+  T_last_previous_ = SE3d();
+  velocity_ = velocity;
+  newest.velocity = keyframe_velocity;
+  tracked.motion = aligner_.motion(*frame, tracked.alignment);
+  tracked.motion.first_rmse = first_rmse_;
+  return tracked;
+}
+
+std::string FrameTracker::objection(const PreparedFrame& frame, const AlignmentResult& result,
+                                    double wanted_agreement) const {
+  if (!result.good) return "no motion explains the image";
+  if (result.in_view < settings_.least_in_view) return "the image shows too little of the map";
+  const bool agrees = aligner_.agreement(frame, result, wanted_agreement) >= wanted_agreement;
+  return agrees ? "" : "the image does not show what the map does";
 }
 
 void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result,

@@ -48,6 +48,11 @@ class FrameTracker {
   /// found. If the last tracked frame was that keyframe, its velocity takes account of the motion since.
   TrackedFrame track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest);
 
+  /// The same of a frame that track() gave no pose, from `starts` (T_frame_newest): where a lost camera may be. What has
+  /// to agree is as much as after a loss, and nothing is known of the motion then.
+  TrackedFrame track_from(const std::vector<SE3d>& starts, const std::shared_ptr<const PreparedFrame>& frame,
+                          Keyframe& newest);
+
   /// Whether the frame shows the last tracked image once more.
   bool is_repeated(const PreparedFrame& frame) const { return same_image(frame, *last_frame_); }
   /// It is shown so: the last tracked frame was there until now. Says nothing of how the camera moves.
@@ -85,6 +90,8 @@ class FrameTracker {
                                    const PreviousFrame& previous) const;
   /// Near a pose that is wrong there is always something that looks alike: after a loss more has to agree.
   double wanted_agreement() const { return is_lost_ ? settings_.resume_agreement : settings_.least_agreement; }
+  /// Why the alignment of a frame is none; empty if it is one.
+  std::string objection(const PreparedFrame& frame, const AlignmentResult& result, double wanted_agreement) const;
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);
 
   TrackingSettings settings_;
