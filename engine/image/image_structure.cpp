@@ -19,9 +19,11 @@ constexpr std::size_t kCoarseLevel = 2;
 /// Pixels of which every so many are looked at, in each direction.
 constexpr int kStride = 2;
 
-double coarse_gradient(const ImagePyramid& pyramid) {
-  return rms_gradient(pyramid.levels.at(std::min(kCoarseLevel, pyramid.levels.size() - 1)).view());
+ImageView<const Texel> coarse_level(const ImagePyramid& pyramid) {
+  return pyramid.levels.at(std::min(kCoarseLevel, pyramid.levels.size() - 1)).view();
 }
+
+double coarse_gradient(const ImagePyramid& pyramid) { return rms_gradient(coarse_level(pyramid)); }
 
 }  // namespace
 
@@ -37,6 +39,21 @@ double rms_gradient(const ImageView<const Texel>& level) {
     }
   }
   return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+double mean_intensity(const ImagePyramid& pyramid) {
+  const ImageView<const Texel> level = coarse_level(pyramid);
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < level.height; y += kStride) {
+    for (int x = 0; x < level.width; x += kStride) {
+      const Texel& texel = level.row(y)[x];
+      if (!texel.valid) continue;
+      sum += texel.intensity;
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 bool has_structure(const ImagePyramid& pyramid) { return coarse_gradient(pyramid) > kLeastStructure; }

@@ -10,6 +10,9 @@ namespace ldso {
 /// Root mean square gradient of the valid pixels of a pyramid level [grey levels a pixel of that level].
 double rms_gradient(const ImageView<const Texel>& level);
 
+/// Mean of the valid pixels, from a coarse level [grey levels]; 0 if there are none.
+double mean_intensity(const ImagePyramid& pyramid);
+
 /// Whether there is anything to be seen: black, white and covered lenses show but noise. Judged on a coarse level, on
 /// which noise has been averaged out.
 bool has_structure(const ImagePyramid& pyramid);

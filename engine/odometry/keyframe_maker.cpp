@@ -67,7 +67,7 @@ bool KeyframeMaker::add(Window& window, const std::shared_ptr<const PreparedFram
                         const Brightness& brightness, const SE3d::Tangent& velocity) {
   const WindowBackup backup(window);
   Keyframe& keyframe = window.append(frame, T_c_w, brightness);
-  const BrightnessPrior prior = priors_.of(*frame);
+  const BrightnessPrior prior = priors_.of(*frame, brightness.a);
   keyframe.prior.tail<2>() << prior.a, prior.b;
   keyframe.prior_mean.tail<2>() << -brightness.a, -brightness.b;
   keyframe.velocity = velocity;

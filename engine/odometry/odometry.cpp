@@ -174,9 +174,9 @@ void Odometry::relocalize(const std::shared_ptr<const PreparedFrame>& frame, Tra
   // What is smeared may agree with the map, but a keyframe of it would not agree with what comes after.
   if (!pose_finder_ || !has_structure(frame->pyramid) || is_blurred(frame->pyramid)) return;
   const StageTimer timer(times_, "relocalize");
-  const std::vector<SE3d> starts = pose_finder_->find(window_, *frame);
-  if (starts.empty()) return;
-  if (TrackedFrame found = tracker_.track_from(starts, frame, newest()); found.reason.empty()) tracked = found;
+  const std::optional<FoundPose> found = pose_finder_->find(window_, *frame);
+  if (!found) return;
+  if (TrackedFrame again = tracker_.track_from(*found, frame, newest()); again.reason.empty()) tracked = again;
 }
 
 bool Odometry::make_keyframe(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_c_w,

@@ -37,9 +37,7 @@ std::vector<cv::Mat> scaled_copies(const Image<Texel>& image) {
 }
 
 /// Centres of pixels are whole numbers on every scale.
-Eigen::Vector2f on_scale(const Eigen::Vector2f& pixel, float scale) {
-  return (pixel.array() + 0.5F) * scale - 0.5F;
-}
+Eigen::Vector2f on_scale(const Eigen::Vector2f& pixel, float scale) { return (pixel.array() + 0.5F) * scale - 0.5F; }
 
 /// The most distinct corners of one of the copies.
 std::vector<Feature> corners_of(const cv::Mat& copy) {

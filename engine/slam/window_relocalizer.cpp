@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geometry/pinhole_projection.h"
 #include "mapping/matching/descriptor_matcher.h"
+#include "mapping/matching/inlier_spread.h"
 #include "mapping/matching/pnp_ransac.h"
 
 namespace ldso {
@@ -17,6 +19,14 @@ constexpr int kDescribedKeyframes = 3;
 constexpr float kPointRadius = 2.5F;
 /// Features nearer to each other are the same place on several scales [px of the smaller image].
 constexpr float kSamePlace = 6;
+/// No camera rolls further about its optical axis while it is lost [rad]: an image that stands on its head is a fault
+/// of the stream.
+constexpr float kMostRoll = 1;
+/// So many corners at one pose, this share of all that were recognized, in this share of the image's cells, are no
+/// coincidence.
+constexpr std::size_t kCertainInliers = 40;
+constexpr double kCertainShare = 0.6;
+constexpr double kCertainCells = 0.2;
 
 float distance(const Feature& a, const Feature& b) { return std::hypot(a.u - b.u, a.v - b.v); }
 
@@ -92,16 +102,29 @@ Nearest nearest_feature(const Landmark& landmark, const std::vector<ScaledFeatur
   return nearest;
 }
 
+bool is_certain(const std::vector<PnpCorrespondence>& all, const std::vector<int>& inliers,
+                const PinholeIntrinsics& camera) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (const int i : inliers) pixels.push_back(all[i].pixel);
+  const double share = static_cast<double>(inliers.size()) / static_cast<double>(all.size());
+  return inliers.size() >= kCertainInliers && share >= kCertainShare &&
+         inlier_spread(pixels, camera).covered_cells >= kCertainCells;
+}
+
+/// From the landmark's keyframe to the image, -pi..pi.
+float roll(const Landmark& landmark, const ScaledFeature& seen) {
+  return std::remainder(seen.feature.angle - landmark.feature.feature.angle, 2 * std::numbers::pi_v<float>);
+}
+
 std::vector<LandmarkMatch> keep_common_turn(const std::vector<LandmarkMatch>& matches,
                                             const std::vector<Landmark>& landmarks,
                                             const std::vector<ScaledFeature>& features, double max_turn) {
   std::vector<float> turns;
-  for (const LandmarkMatch& match : matches)
-    turns.push_back(features[match.feature].feature.angle - landmarks[match.landmark].feature.feature.angle);
+  for (const LandmarkMatch& match : matches) turns.push_back(roll(landmarks[match.landmark], features[match.feature]));
   const std::vector<bool> is_common = have_common_turn(turns, static_cast<float>(max_turn));
   std::vector<LandmarkMatch> kept;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (is_common[i]) kept.push_back(matches[i]);
+    if (is_common[i] && std::abs(turns[i]) < kMostRoll) kept.push_back(matches[i]);
   }
   return kept;
 }
@@ -125,7 +148,8 @@ std::vector<LandmarkMatch> match_landmarks(const std::vector<Landmark>& landmark
   std::vector<int> bits(features.size());
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const Nearest nearest = nearest_feature(landmarks[i], features, bits);
-    const bool is_clear = nearest.bits <= settings.max_distance && nearest.bits < settings.max_ratio * nearest.second_bits;
+    const bool is_clear =
+        nearest.bits <= settings.max_distance && nearest.bits < settings.max_ratio * nearest.second_bits;
     if (!is_clear || nearest.bits >= of_feature[nearest.feature].bits) continue;
     of_feature[nearest.feature] = {static_cast<int>(i), nearest.feature, nearest.bits};
   }
@@ -133,7 +157,7 @@ std::vector<LandmarkMatch> match_landmarks(const std::vector<Landmark>& landmark
   return settings.check_orientation ? keep_common_turn(of_feature, landmarks, features, settings.max_turn) : of_feature;
 }
 
-std::vector<SE3d> WindowRelocalizer::find(const Window& window, const PreparedFrame& frame) {
+std::optional<FoundPose> WindowRelocalizer::find(const Window& window, const PreparedFrame& frame) {
   const Keyframe& newest = *window.keyframes.back();
   if (newest_ != newest.id()) landmarks_ = landmarks_of(window);
   newest_ = newest.id();
@@ -141,12 +165,12 @@ std::vector<SE3d> WindowRelocalizer::find(const Window& window, const PreparedFr
   std::vector<PnpCorrespondence> correspondences;
   for (const LandmarkMatch& match : match_landmarks(landmarks_, features, matching_)) {
     const ScaledFeature& seen = features[match.feature];
-    correspondences.push_back(
-        {landmarks_[match.landmark].point, {seen.feature.u, seen.feature.v}, 1.0 / seen.scale});
+    correspondences.push_back({landmarks_[match.landmark].point, {seen.feature.u, seen.feature.v}, 1.0 / seen.scale});
   }
   const std::optional<PnpResult> pose = pnp_ransac(correspondences, window.intrinsics(), pnp_);
   if (!pose) return {};
-  return {pose->T_camera_points * newest.state.T_c_w().inverse()};
+  return FoundPose{pose->T_camera_points * newest.state.T_c_w().inverse(),
+                   is_certain(correspondences, pose->inliers, window.intrinsics())};
 }
 
 }  // namespace ldso

@@ -32,7 +32,7 @@ class WindowRelocalizer : public PoseFinder {
  public:
   WindowRelocalizer(const LoopMatchingSettings& matching, const PnpSettings& pnp) : matching_(matching), pnp_(pnp) {}
 
-  std::vector<SE3d> find(const Window& window, const PreparedFrame& frame) override;
+  std::optional<FoundPose> find(const Window& window, const PreparedFrame& frame) override;
 
  private:
   LoopMatchingSettings matching_;
@@ -45,7 +45,8 @@ class WindowRelocalizer : public PoseFinder {
 std::vector<Landmark> landmarks_of(const Window& window);
 
 /// For each landmark the most similar of `features`, if it is unlike those elsewhere in the image; for each feature the
-/// most similar landmark that wants it. Of those, the ones that are turned like most. Ordered by feature.
+/// most similar landmark that wants it. Of those, the ones that are turned like most, if that is no more than a camera
+/// rolls. Ordered by feature.
 std::vector<LandmarkMatch> match_landmarks(const std::vector<Landmark>& landmarks,
                                            const std::vector<ScaledFeature>& features,
                                            const LoopMatchingSettings& settings = {});

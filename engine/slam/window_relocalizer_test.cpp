@@ -12,9 +12,7 @@
 namespace ldso {
 namespace {
 
-OrbDescriptor random_descriptor(std::mt19937_64& random) {
-  return {{random(), random(), random(), random()}};
-}
+OrbDescriptor random_descriptor(std::mt19937_64& random) { return {{random(), random(), random(), random()}}; }
 
 /// Differs in so many bits.
 OrbDescriptor changed(OrbDescriptor descriptor, int bits) {
@@ -73,6 +71,11 @@ TEST_F(MatchLandmarks, LeavesWhatIsTurnedOtherwise) {
   EXPECT_EQ(match_landmarks(landmarks_, features_).size(), 4U);
 }
 
+TEST_F(MatchLandmarks, LeavesAnImageThatStandsOnItsHead) {
+  for (const float angle : {3.1F, 3.2F, 3.3F}) add_pair(10, angle);
+  EXPECT_TRUE(match_landmarks(landmarks_, features_).empty());
+}
+
 constexpr int kBefore = 40, kJump = 50, kAfter = 10;
 
 /// Of a camera that jumps ahead, so far that no prediction reaches it.
@@ -102,9 +105,7 @@ TEST(WindowRelocalizer, FollowsAJumpInTheSameMap) {
   EXPECT_NEAR(way(kBefore, kBefore + kAfter - 1) / step, kAfter - 1, 0.1 * kAfter);
 }
 
-TEST(WindowRelocalizer, IsWhatFollowsIt) {
-  EXPECT_EQ(after_a_jump(false).frames[kBefore].state, TrackingState::kLost);
-}
+TEST(WindowRelocalizer, IsWhatFollowsIt) { EXPECT_EQ(after_a_jump(false).frames[kBefore].state, TrackingState::kLost); }
 
 }  // namespace
 }  // namespace ldso

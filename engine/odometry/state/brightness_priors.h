@@ -2,6 +2,8 @@
 
 // How firmly a frame's brightness is held: by what is known of its exposure and of the camera's response.
 
+#include <cmath>
+
 #include "image/frame.h"
 #include "ldso/settings.h"
 #include "odometry/state/brightness.h"
@@ -16,14 +18,19 @@ class BrightnessPriors {
         unknown_{settings.unknown_prior_a, settings.unknown_prior_b},
         calibrated_(calibrated) {}
 
-  BrightnessPrior of(const PreparedFrame& frame) const {
-    return calibrated_ && frame.exposure_known ? known_ : unknown_;
+  /// `a`: log brightness factor that the frame has, as far as it is known. If it is far from 0, what was said of the
+  /// exposure is not true, and counts as unknown.
+  BrightnessPrior of(const PreparedFrame& frame, double a) const {
+    return calibrated_ && frame.exposure_known && std::abs(a) < kMostUntold ? known_ : unknown_;
   }
 
   /// Between frames whose exposures are known while there is no map yet: without a response nothing holds them.
   BrightnessPrior of_first_frames() const { return calibrated_ ? known_ : BrightnessPrior{}; }
 
  private:
+  /// Of frames whose exposure is known it is below 0.05.
+  static constexpr double kMostUntold = 0.25;
+
   BrightnessPrior known_, unknown_;
   bool calibrated_;
 };

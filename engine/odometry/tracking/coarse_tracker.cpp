@@ -36,7 +36,8 @@ constexpr double kTurnPerGreyLevel = 1e-3;
 constexpr double kMostSaturated = 0.6;
 /// The cutoff is doubled up to so many times itself.
 constexpr double kMostCutoffFactor = 50;
-/// A factor of brightness beyond e^1.2, after that of the exposures, is no change of a camera's brightness.
+/// A factor of brightness beyond e^1.2, after that of the exposures and what was expected, is no change of a camera's
+/// brightness.
 constexpr double kLargestLogBrightness = 1.2;
 /// An offset of brightness beyond this is no change of a camera's brightness [grey levels].
 constexpr double kLargestOffset = 200;
@@ -221,8 +222,10 @@ AlignmentResult CoarseTracker::align(const PreparedFrame& frame, const SE3d& T_n
   result.in_view = system.count / finest_points;
   const double log_factor =
       std::log(brightness_transfer(ref_exposure_, ref_brightness_, frame.exposure_ms, estimate.brightness).factor);
-  result.good = std::abs(log_factor) < kLargestLogBrightness + std::abs(std::log(frame.exposure_ms / ref_exposure_)) &&
-                std::abs(estimate.brightness.b) < kLargestOffset;
+  const double expected =
+      std::abs(std::log(frame.exposure_ms / ref_exposure_)) + std::abs(brightness.a - ref_brightness_.a);
+  result.good =
+      std::abs(log_factor) < kLargestLogBrightness + expected && std::abs(estimate.brightness.b) < kLargestOffset;
   return result;
 }
 
@@ -242,6 +245,11 @@ double CoarseTracker::agreement(const PreparedFrame& frame, const AlignmentResul
     if (agreement.edges >= kLeastEdges) best = std::max(best, agreement.correlation);
   }
   return best;
+}
+
+double CoarseTracker::shift_px(const SE3d& motion) const {
+  const SE3d::Tangent x = motion.log();
+  return camera_.fx * (map_.mean_idepth * x.head<3>().norm() + x.tail<3>().norm());
 }
 
 FrameMotion CoarseTracker::motion(const PreparedFrame& frame, const AlignmentResult& result) const {

@@ -53,6 +53,9 @@ class CoarseTracker {
   /// `wanted`, on the next one. Blur and noise take it from the finest first.
   double agreement(const PreparedFrame& frame, const AlignmentResult& result, double wanted) const;
 
+  /// By how far a motion shifts the image of a point at the mean depth, about [px].
+  double shift_px(const SE3d& motion) const;
+
   const CoarseDepthMap& depth_map() const { return map_; }
 
  private:

@@ -17,6 +17,15 @@ constexpr double kLargestReadoutShare = 2;
 /// of a fifth of a second and find nothing else.
 constexpr std::size_t kTriedTurns = 12;
 
+/// An alignment that moves further from where the frame was found has found something else [px].
+constexpr double kLargestCorrection = 8;
+/// Change of the mean intensity from one image to the next from which on it is taken for one of the light [log]: what
+/// comes into view changes it by less.
+constexpr double kSuddenLight = 0.3;
+
+/// Mean intensity for an exposure of 1 ms.
+double intensity_of(const PreparedFrame& frame) { return mean_intensity(frame.pyramid) / frame.exposure_ms; }
+
 /// Zero if the times say nothing.
 SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
   const SE3d::Tangent velocity = motion.log() / seconds;
@@ -30,6 +39,7 @@ void FrameTracker::start(const std::shared_ptr<const PreparedFrame>& frame, cons
   velocity_ = velocity_of(T_frame_first, seconds);
   last_frame_ = frame;
   last_time_ = frame->timestamp;
+  last_intensity_ = intensity_of(*frame);
   last_rmse_.clear();
 }
 
@@ -56,6 +66,7 @@ void FrameTracker::turn_back(const FrameTracker& from, const Window& window) {
   last_time_ = from.last_time_;
   velocity_ = from.velocity_;
   last_brightness_ = from.last_brightness_;
+  last_intensity_ = from.last_intensity_;
   last_rmse_ = from.last_rmse_;
 }
 
@@ -79,11 +90,13 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
   return tracked;
 }
 
-TrackedFrame FrameTracker::track_from(const std::vector<SE3d>& starts,
-                                      const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest) {
+TrackedFrame FrameTracker::track_from(const FoundPose& found, const std::shared_ptr<const PreparedFrame>& frame,
+                                      Keyframe& newest) {
   TrackedFrame tracked;
-  tracked.alignment = align_from(starts, *frame, last_brightness_, {});
-  tracked.reason = objection(*frame, tracked.alignment, settings_.resume_agreement);
+  tracked.alignment = best_from({found.T_frame_newest}, *frame, expected_brightness(*frame), {});
+  const SE3d correction = tracked.alignment.T_new_ref * found.T_frame_newest.inverse();
+  const bool is_proven = found.is_certain && aligner_.shift_px(correction) < kLargestCorrection;
+  tracked.reason = objection(*frame, tracked.alignment, is_proven ? 0 : settings_.resume_agreement);
   if (!tracked.reason.empty()) return tracked;
   const SE3d::Tangent velocity = velocity_, keyframe_velocity = newest.velocity;
   remember(frame, tracked.alignment, newest);
@@ -118,6 +131,7 @@ void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, c
   last_frame_ = frame;
   last_time_ = frame->timestamp;
   last_brightness_ = result.brightness;
+  last_intensity_ = intensity_of(*frame);
 }
 
 void FrameTracker::lose() {
@@ -134,6 +148,12 @@ SE3d FrameTracker::expected_motion(double time) const {
   return motion_over(T_last_previous_, step_ratio(time - last_time_, last_step_s_));
 }
 
+Brightness FrameTracker::expected_brightness(const PreparedFrame& frame) const {
+  const double change = std::log(intensity_of(frame) / last_intensity_);
+  if (!std::isfinite(change) || std::abs(change) < kSuddenLight) return last_brightness_;
+  return {last_brightness_.a + change, last_brightness_.b};
+}
+
 AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
   const PreviousFrame previous = previous_frame(frame.timestamp, last_time_, T_last_ref_);
   const std::vector<SE3d> motions = motion_hypotheses(T_last_ref_, expected_motion(frame.timestamp));
@@ -145,10 +165,12 @@ AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
 
 bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
                            AlignmentResult& best) const {
+  const Brightness brightness = expected_brightness(frame);
+  const BrightnessPrior prior = priors_.of(frame, brightness.a);
   for (const SE3d& pose : starts) {
     // Only what beats the best so far is of interest.
     const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
-    const AlignmentResult result = aligner_.align(frame, pose, last_brightness_, priors_.of(frame), limits, previous);
+    const AlignmentResult result = aligner_.align(frame, pose, brightness, prior, limits, previous);
     if (!result.good || !std::isfinite(result.rmse()) || result.rmse() > settings_.lost_rmse) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
     const bool as_good_as_ever = last_rmse_.empty() || best.rmse() < settings_.good_ratio * last_rmse_.front();
@@ -159,9 +181,11 @@ bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame&
 
 std::vector<SE3d> FrameTracker::most_promising(const std::vector<SE3d>& starts, const PreparedFrame& frame,
                                                const PreviousFrame& previous) const {
+  const Brightness brightness = expected_brightness(frame);
+  const BrightnessPrior prior = priors_.of(frame, brightness.a);
   std::vector<std::pair<double, std::size_t>> energies;
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    energies.emplace_back(aligner_.start_energy(frame, starts[i], last_brightness_, priors_.of(frame), previous), i);
+    energies.emplace_back(aligner_.start_energy(frame, starts[i], brightness, prior, previous), i);
   }
   std::sort(energies.begin(), energies.end());
   std::vector<SE3d> best;
@@ -171,13 +195,20 @@ std::vector<SE3d> FrameTracker::most_promising(const std::vector<SE3d>& starts, 
 
 AlignmentResult FrameTracker::align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
                                          const Brightness& brightness, const PreviousFrame& previous) const {
+  AlignmentResult best = best_from(starts, frame, brightness, previous);
+  best.good = best.good && aligner_.agreement(frame, best, settings_.least_agreement) >= settings_.least_agreement;
+  return best;
+}
+
+AlignmentResult FrameTracker::best_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                                        const Brightness& brightness, const PreviousFrame& previous) const {
   AlignmentResult best;
   for (const SE3d& start : starts) {
-    const AlignmentResult result = aligner_.align(frame, start, brightness, priors_.of(frame), {}, previous);
+    const AlignmentResult result =
+        aligner_.align(frame, start, brightness, priors_.of(frame, brightness.a), {}, previous);
     if (!result.good || !(result.rmse() <= settings_.lost_rmse)) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
   }
-  best.good = best.good && aligner_.agreement(frame, best, settings_.least_agreement) >= settings_.least_agreement;
   return best;
 }
 

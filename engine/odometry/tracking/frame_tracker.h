@@ -13,6 +13,7 @@
 #include "odometry/state/brightness_priors.h"
 #include "odometry/state/window.h"
 #include "odometry/tracking/coarse_tracker.h"
+#include "odometry/tracking/pose_finder.h"
 #include "util/thread_pool.h"
 
 namespace ldso {
@@ -48,10 +49,8 @@ class FrameTracker {
   /// found. If the last tracked frame was that keyframe, its velocity takes account of the motion since.
   TrackedFrame track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest);
 
-  /// The same of a frame that track() gave no pose, from `starts` (T_frame_newest): where a lost camera may be. What has
-  /// to agree is as much as after a loss, and nothing is known of the motion then.
-  TrackedFrame track_from(const std::vector<SE3d>& starts, const std::shared_ptr<const PreparedFrame>& frame,
-                          Keyframe& newest);
+  /// The same of a frame that track() gave no pose, from where it was found. Of the motion nothing is known then.
+  TrackedFrame track_from(const FoundPose& found, const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest);
 
   /// Whether the frame shows the last tracked image once more.
   bool is_repeated(const PreparedFrame& frame) const { return same_image(frame, *last_frame_); }
@@ -82,6 +81,9 @@ class FrameTracker {
 
  private:
   AlignmentResult align(const PreparedFrame& frame) const;
+  /// Where the search for the frame's brightness begins: where it was last, unless the light has changed all of a
+  /// sudden (a lamp, an exposure that nobody told).
+  Brightness expected_brightness(const PreparedFrame& frame) const;
   /// Aligns the frame from each of the poses; keeps what beats `best`. True as soon as that is as good as ever.
   bool improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
                AlignmentResult& best) const;
@@ -90,6 +92,9 @@ class FrameTracker {
                                    const PreviousFrame& previous) const;
   /// Near a pose that is wrong there is always something that looks alike: after a loss more has to agree.
   double wanted_agreement() const { return is_lost_ ? settings_.resume_agreement : settings_.least_agreement; }
+  /// The best of the alignments that begin at `starts`, whether or not the image shows what the map does.
+  AlignmentResult best_from(const std::vector<SE3d>& starts, const PreparedFrame& frame, const Brightness& brightness,
+                            const PreviousFrame& previous) const;
   /// Why the alignment of a frame is none; empty if it is one.
   std::string objection(const PreparedFrame& frame, const AlignmentResult& result, double wanted_agreement) const;
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);
@@ -106,6 +111,7 @@ class FrameTracker {
   double last_time_ = 0;                             ///< When it was shown for the last time [s].
   SE3d::Tangent velocity_ = SE3d::Tangent::Zero();
   Brightness last_brightness_;
+  double last_intensity_ = 0;      ///< Mean of the last tracked frame's image, for its exposure; 0: unknown.
   std::vector<double> last_rmse_;  ///< Of each level; empty: nothing to compare with.
   bool is_lost_ = false;           ///< The last frame could not be tracked.
   double first_rmse_ = 0;          ///< Of the first frame aligned with the newest keyframe; 0: none yet.

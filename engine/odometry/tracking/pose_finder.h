@@ -2,7 +2,7 @@
 
 // Where a lost camera may be. The odometry knows its own window, but nothing of places: who does implements this.
 
-#include <vector>
+#include <optional>
 
 #include "image/frame.h"
 #include "ldso/se3.h"
@@ -10,14 +10,19 @@
 
 namespace ldso {
 
+/// Where the camera may have taken a frame.
+struct FoundPose {
+  SE3d T_frame_newest;  ///< Relative to the newest keyframe of the window.
+  /// So much was recognized that the pose needs no other proof than that the alignment stays there.
+  bool is_certain = false;
+};
+
 class PoseFinder {
  public:
   virtual ~PoseFinder() = default;
 
-  /// Poses T_frame_newest, relative to the newest keyframe of `window`, at which the camera may have taken `frame`: the
-  /// most likely first, none if nothing of the window was recognized. The window stays as it is while the camera is
-  /// lost.
-  virtual std::vector<SE3d> find(const Window& window, const PreparedFrame& frame) = 0;
+  /// Nothing if not enough of the window was recognized in `frame`. The window stays as it is while the camera is lost.
+  virtual std::optional<FoundPose> find(const Window& window, const PreparedFrame& frame) = 0;
 };
 
 }  // namespace ldso
