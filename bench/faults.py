@@ -47,6 +47,12 @@ class Sequence:
         if not len(self.times) == len(self.truth) == len(self.images):
             sys.exit(f"faults.py: {folder}: images, times and ground truth differ in number")
         self.interval = float(self.times[1][1]) - float(self.times[0][1])
+        response = self.folder / "pcalib.txt"
+        self.irradiance = np.array(rows(response)[0] if response.exists() else range(256), float)
+
+    def lit(self, image, factor):
+        """With so many times the light: what the camera's response makes of it."""
+        return np.interp(factor * self.irradiance[image.astype(np.uint8)], self.irradiance, range(256))
 
 
 class Damage:
@@ -139,11 +145,11 @@ KINDS = {
     "hand_whole": lambda d: d.change(1.3, hand(1.0), True),
     "hand_most": lambda d: d.change(1.3, hand(0.85), True),
     "hand_half": lambda d: d.change(1.3, hand(0.5)),
-    "bright_2.5": lambda d: d.change(1, lambda a, r: 2.5 * a),
-    "dim_8": lambda d: d.change(1, lambda a, r: a / 8),
-    "exposure_8": lambda d: d.change(1, lambda a, r: a / 8, exposure=1 / 8),
-    "exposure_step": lambda d: d.change(1e6, lambda a, r: 0.4 * a),
-    "flicker": lambda d: d.change(1, lambda a, r: a * r.uniform(0.5, 1.5)),
+    "bright_2.5": lambda d: d.change(1, lambda a, r: d.sequence.lit(a, 2.5)),
+    "dim_8": lambda d: d.change(1, lambda a, r: d.sequence.lit(a, 1 / 8)),
+    "exposure_8": lambda d: d.change(1, lambda a, r: d.sequence.lit(a, 1 / 8), exposure=1 / 8),
+    "exposure_step": lambda d: d.change(1e6, lambda a, r: d.sequence.lit(a, 0.4)),
+    "flicker": lambda d: d.change(1, lambda a, r: d.sequence.lit(a, r.uniform(0.5, 1.5))),
     "frozen_3": lambda d: d.freeze(3 * d.sequence.interval),
     "frozen_2s": lambda d: d.freeze(2),
     "blur_4": lambda d: d.change(1, blur(4)),

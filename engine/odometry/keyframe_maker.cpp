@@ -69,7 +69,7 @@ bool KeyframeMaker::add(Window& window, const std::shared_ptr<const PreparedFram
   Keyframe& keyframe = window.append(frame, T_c_w, brightness);
   const BrightnessPrior prior = priors_.of(*frame, brightness.a);
   keyframe.prior.tail<2>() << prior.a, prior.b;
-  keyframe.prior_mean.tail<2>() << -brightness.a, -brightness.b;
+  keyframe.prior_mean.tail<2>() << prior.mean_a - brightness.a, -brightness.b;
   keyframe.velocity = velocity;
   flag_leaving(keyframes_, window);
   {

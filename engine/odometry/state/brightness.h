@@ -12,10 +12,11 @@ struct Brightness {
   double b = 0;  ///< Offset [grey levels].
 };
 
-/// Precision of zero-mean priors on a and b; 0: free.
+/// Precision of priors on a, whose mean is `mean_a`, and on b, whose mean is 0; 0: free.
 struct BrightnessPrior {
   double a = 0;
   double b = 0;
+  double mean_a = 0;
 };
 
 /// I_target = factor * I_host + offset.

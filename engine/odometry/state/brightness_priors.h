@@ -18,11 +18,15 @@ class BrightnessPriors {
         unknown_{settings.unknown_prior_a, settings.unknown_prior_b},
         calibrated_(calibrated) {}
 
-  /// `a`: log brightness factor that the frame has, as far as it is known. If it is far from 0, what was said of the
-  /// exposure is not true, and counts as unknown.
+  /// `a`: log brightness factor that the frame should have by those before it. If it is far from 0, what is said of the
+  /// exposures is not true, but for what has become of it: as it has changed once, it stays.
   BrightnessPrior of(const PreparedFrame& frame, double a) const {
-    return calibrated_ && frame.exposure_known && std::abs(a) < kMostUntold ? known_ : unknown_;
+    if (!calibrated_ || !frame.exposure_known) return unknown_;
+    return {known_.a, known_.b, std::abs(a) < kMostUntold ? 0 : a};
   }
+
+  /// Of a frame before which the light has changed, by what its image makes believe.
+  BrightnessPrior of_sudden_light() const { return unknown_; }
 
   /// Between frames whose exposures are known while there is no map yet: without a response nothing holds them.
   BrightnessPrior of_first_frames() const { return calibrated_ ? known_ : BrightnessPrior{}; }

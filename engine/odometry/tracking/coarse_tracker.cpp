@@ -157,7 +157,7 @@ CoarseTracker::LevelSystem CoarseTracker::evaluate(const PreparedFrame& frame, i
   // Priors hold for all points together, as they do for a keyframe of the window.
   system.H(6, 6) += estimate.prior.a;
   system.H(7, 7) += estimate.prior.b;
-  system.b[6] += estimate.prior.a * estimate.brightness.a;
+  system.b[6] += estimate.prior.a * (estimate.brightness.a - estimate.prior.mean_a);
   system.b[7] += estimate.prior.b * estimate.brightness.b;
   return system;
 }

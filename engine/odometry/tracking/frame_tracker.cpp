@@ -148,10 +148,11 @@ SE3d FrameTracker::expected_motion(double time) const {
   return motion_over(T_last_previous_, step_ratio(time - last_time_, last_step_s_));
 }
 
-Brightness FrameTracker::expected_brightness(const PreparedFrame& frame) const {
+ExpectedBrightness FrameTracker::expected_brightness(const PreparedFrame& frame) const {
   const double change = std::log(intensity_of(frame) / last_intensity_);
-  if (!std::isfinite(change) || std::abs(change) < kSuddenLight) return last_brightness_;
-  return {last_brightness_.a + change, last_brightness_.b};
+  if (!std::isfinite(change) || std::abs(change) < kSuddenLight)
+    return {last_brightness_, priors_.of(frame, last_brightness_.a)};
+  return {{last_brightness_.a + change, last_brightness_.b}, priors_.of_sudden_light()};
 }
 
 AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
@@ -165,12 +166,11 @@ AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
 
 bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
                            AlignmentResult& best) const {
-  const Brightness brightness = expected_brightness(frame);
-  const BrightnessPrior prior = priors_.of(frame, brightness.a);
+  const ExpectedBrightness expected = expected_brightness(frame);
   for (const SE3d& pose : starts) {
     // Only what beats the best so far is of interest.
     const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
-    const AlignmentResult result = aligner_.align(frame, pose, brightness, prior, limits, previous);
+    const AlignmentResult result = aligner_.align(frame, pose, expected.start, expected.prior, limits, previous);
     if (!result.good || !std::isfinite(result.rmse()) || result.rmse() > settings_.lost_rmse) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
     const bool as_good_as_ever = last_rmse_.empty() || best.rmse() < settings_.good_ratio * last_rmse_.front();
@@ -181,11 +181,10 @@ bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame&
 
 std::vector<SE3d> FrameTracker::most_promising(const std::vector<SE3d>& starts, const PreparedFrame& frame,
                                                const PreviousFrame& previous) const {
-  const Brightness brightness = expected_brightness(frame);
-  const BrightnessPrior prior = priors_.of(frame, brightness.a);
+  const ExpectedBrightness expected = expected_brightness(frame);
   std::vector<std::pair<double, std::size_t>> energies;
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    energies.emplace_back(aligner_.start_energy(frame, starts[i], brightness, prior, previous), i);
+    energies.emplace_back(aligner_.start_energy(frame, starts[i], expected.start, expected.prior, previous), i);
   }
   std::sort(energies.begin(), energies.end());
   std::vector<SE3d> best;
@@ -195,17 +194,16 @@ std::vector<SE3d> FrameTracker::most_promising(const std::vector<SE3d>& starts, 
 
 AlignmentResult FrameTracker::align_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
                                          const Brightness& brightness, const PreviousFrame& previous) const {
-  AlignmentResult best = best_from(starts, frame, brightness, previous);
+  AlignmentResult best = best_from(starts, frame, {brightness, priors_.of(frame, brightness.a)}, previous);
   best.good = best.good && aligner_.agreement(frame, best, settings_.least_agreement) >= settings_.least_agreement;
   return best;
 }
 
 AlignmentResult FrameTracker::best_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
-                                        const Brightness& brightness, const PreviousFrame& previous) const {
+                                        const ExpectedBrightness& expected, const PreviousFrame& previous) const {
   AlignmentResult best;
   for (const SE3d& start : starts) {
-    const AlignmentResult result =
-        aligner_.align(frame, start, brightness, priors_.of(frame, brightness.a), {}, previous);
+    const AlignmentResult result = aligner_.align(frame, start, expected.start, expected.prior, {}, previous);
     if (!result.good || !(result.rmse() <= settings_.lost_rmse)) continue;
     if (!best.good || result.rmse() < best.rmse()) best = result;
   }

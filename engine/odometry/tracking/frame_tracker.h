@@ -25,6 +25,12 @@ struct TrackedFrame {
   FrameMotion motion;
 };
 
+/// Where the search for a frame's brightness begins, and how firmly it is held.
+struct ExpectedBrightness {
+  Brightness start;
+  BrightnessPrior prior;
+};
+
 class FrameTracker {
  public:
   /// `readout_s`: of a rolling shutter, first row to last; 0: global shutter. `pool` must outlive this.
@@ -81,9 +87,9 @@ class FrameTracker {
 
  private:
   AlignmentResult align(const PreparedFrame& frame) const;
-  /// Where the search for the frame's brightness begins: where it was last, unless the light has changed all of a
-  /// sudden (a lamp, an exposure that nobody told).
-  Brightness expected_brightness(const PreparedFrame& frame) const;
+  /// What the frame's brightness should be: what it was last, unless the light has changed all of a sudden (a lamp, an
+  /// exposure that nobody told).
+  ExpectedBrightness expected_brightness(const PreparedFrame& frame) const;
   /// Aligns the frame from each of the poses; keeps what beats `best`. True as soon as that is as good as ever.
   bool improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
                AlignmentResult& best) const;
@@ -93,8 +99,8 @@ class FrameTracker {
   /// Near a pose that is wrong there is always something that looks alike: after a loss more has to agree.
   double wanted_agreement() const { return is_lost_ ? settings_.resume_agreement : settings_.least_agreement; }
   /// The best of the alignments that begin at `starts`, whether or not the image shows what the map does.
-  AlignmentResult best_from(const std::vector<SE3d>& starts, const PreparedFrame& frame, const Brightness& brightness,
-                            const PreviousFrame& previous) const;
+  AlignmentResult best_from(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                            const ExpectedBrightness& expected, const PreviousFrame& previous) const;
   /// Why the alignment of a frame is none; empty if it is one.
   std::string objection(const PreparedFrame& frame, const AlignmentResult& result, double wanted_agreement) const;
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);
