@@ -13,8 +13,11 @@ namespace {
 /// Times in a row that an image may come again. No camera takes the same image twice: a driver that has no new one
 /// hands out the last, and after more than this it hangs while the camera may move.
 constexpr int kMostRepeats = 5;
-/// Frames that may fail in a row before a new start is looked for beside the old map.
+/// Frames that may fail in a row before a new start is looked for beside the old map, and for how long [s] or how many
+/// at most: a hand, a glare, a faulty stream are often over by then, and the map is in one piece.
 constexpr int kForgivenFrames = 3;
+constexpr double kForgivenSeconds = 0.5;
+constexpr int kMostForgivenFrames = 15;
 /// Frames that may fail in a row before the map is given up though no other has begun: three seconds of most cameras.
 constexpr int kMostLostFrames = 90;
 
@@ -156,6 +159,7 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
     return;
   }
   lost_frames_ = 0;
+  seeks_start_ = false;
   state_ = TrackingState::kTracked;
   tracker_.record_last(newest(), output.frame);
   const Brightness& brightness = tracked.alignment.brightness;
@@ -201,15 +205,17 @@ void Odometry::handle_loss(const std::shared_ptr<const PreparedFrame>& frame, co
   state_ = TrackingState::kLost;
   record_no_pose(TrackingState::kLost, reason, output.frame);
   tracker_.lose();
-  if (++lost_frames_ > kMostLostFrames) {
+  if (++lost_frames_ == 1) lost_since_ = frame->timestamp;
+  const bool is_over = frame->timestamp - lost_since_ >= kForgivenSeconds || lost_frames_ > kMostForgivenFrames;
+  if (lost_frames_ > kMostLostFrames) {
     restart(reason + " for " + std::to_string(lost_frames_) + " frames", last_pose(), output);
-  } else if (lost_frames_ > kForgivenFrames) {
+  } else if (lost_frames_ > kForgivenFrames && is_over) {
     try_new_start(frame, output);
   }
 }
 
 void Odometry::try_new_start(const std::shared_ptr<const PreparedFrame>& frame, OdometryOutput& output) {
-  if (lost_frames_ == kForgivenFrames + 1) {
+  if (!std::exchange(seeks_start_, true)) {
     place_.camera = window_.intrinsics();
     initializer_ = make_initializer();
     waiting_.clear();
@@ -229,6 +235,7 @@ void Odometry::leave_map(const SE3d& T_c_w, OdometryOutput& output) {
   tracker_.lose();
   state_ = TrackingState::kInitializing;
   lost_frames_ = 0;
+  seeks_start_ = false;
   ++restarts_;
 }
 

@@ -103,8 +103,10 @@ class Odometry {
   WindowTracer tracer_;
   KeyframeMaker keyframe_maker_;
   Window window_;
-  int lost_frames_ = 0;  ///< In a row.
-  int repeats_ = 0;      ///< Of the last tracked image, in a row.
+  int lost_frames_ = 0;       ///< In a row.
+  double lost_since_ = 0;     ///< Time of the first of them [s].
+  bool seeks_start_ = false;  ///< Beside the attempts to find the map again.
+  int repeats_ = 0;           ///< Of the last tracked image, in a row.
   int keyframes_ = 0;
   int restarts_ = 0;
 };

@@ -77,6 +77,17 @@ void add_landmarks(const Window& window, const Keyframe& keyframe, std::vector<L
   }
 }
 
+/// The corners of some of the window's keyframes near which there is a point.
+std::vector<Landmark> landmarks_of(const Window& window) {
+  std::vector<Landmark> landmarks;
+  const int described = std::min(kDescribedKeyframes, window.size());
+  for (int k = 0; k < described; ++k) {
+    // Evenly over the window, the newest one in any case.
+    add_landmarks(window, *window.keyframes[window.size() - 1 - k * window.size() / described], landmarks);
+  }
+  return landmarks;
+}
+
 /// The feature that is most similar to a landmark, and how similar one elsewhere in the image is.
 struct Nearest {
   int feature = -1;
@@ -130,16 +141,6 @@ std::vector<LandmarkMatch> keep_common_turn(const std::vector<LandmarkMatch>& ma
 }
 
 }  // namespace
-
-std::vector<Landmark> landmarks_of(const Window& window) {
-  std::vector<Landmark> landmarks;
-  const int described = std::min(kDescribedKeyframes, window.size());
-  for (int k = 0; k < described; ++k) {
-    // Evenly over the window, the newest one in any case.
-    add_landmarks(window, *window.keyframes[window.size() - 1 - k * window.size() / described], landmarks);
-  }
-  return landmarks;
-}
 
 std::vector<LandmarkMatch> match_landmarks(const std::vector<Landmark>& landmarks,
                                            const std::vector<ScaledFeature>& features,

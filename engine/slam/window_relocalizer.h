@@ -41,9 +41,6 @@ class WindowRelocalizer : public PoseFinder {
   std::vector<Landmark> landmarks_;
 };
 
-/// The corners of some of the window's keyframes near which there is a point.
-std::vector<Landmark> landmarks_of(const Window& window);
-
 /// For each landmark the most similar of `features`, if it is unlike those elsewhere in the image; for each feature the
 /// most similar landmark that wants it. Of those, the ones that are turned like most, if that is no more than a camera
 /// rolls. Ordered by feature.
