@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ldso/error.h"
 #include "place/orb_descriptor.h"
@@ -31,7 +33,9 @@ std::vector<cv::Mat> scaled_copies(const Image<Texel>& image) {
     const cv::Size size(static_cast<int>(std::lround(scale * image.width())),
                         static_cast<int>(std::lround(scale * image.height())));
     if (std::min(size.width, size.height) <= 2 * kDescriptorMargin) break;
-    cv::resize(copies.front(), copies.emplace_back(), size, 0, 0, cv::INTER_AREA);
+    cv::Mat copy;
+    cv::resize(copies.front(), copy, size, 0, 0, cv::INTER_AREA);
+    copies.push_back(std::move(copy));
   }
   return copies;
 }
