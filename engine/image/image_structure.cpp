@@ -41,19 +41,20 @@ double rms_gradient(const ImageView<const Texel>& level) {
   return count > 0 ? std::sqrt(squares / count) : 0;
 }
 
-double mean_intensity(const ImagePyramid& pyramid) {
+LightOfImage light_of(const ImagePyramid& pyramid) {
   const ImageView<const Texel> level = coarse_level(pyramid);
   double sum = 0;
-  int count = 0;
+  int valid = 0, all = 0;
   for (int y = 0; y < level.height; y += kStride) {
-    for (int x = 0; x < level.width; x += kStride) {
+    for (int x = 0; x < level.width; x += kStride, ++all) {
       const Texel& texel = level.row(y)[x];
       if (!texel.valid) continue;
       sum += texel.intensity;
-      ++count;
+      ++valid;
     }
   }
-  return count > 0 ? sum / count : 0;
+  if (valid == 0) return {};
+  return {sum / valid, static_cast<double>(valid) / all};
 }
 
 bool has_structure(const ImagePyramid& pyramid) { return coarse_gradient(pyramid) > kLeastStructure; }

@@ -176,7 +176,8 @@ void Odometry::track(const std::shared_ptr<const PreparedFrame>& frame, Odometry
 
 void Odometry::relocalize(const std::shared_ptr<const PreparedFrame>& frame, TrackedFrame& tracked) {
   // What is smeared may agree with the map, but a keyframe of it would not agree with what comes after.
-  if (!pose_finder_ || !has_structure(frame->pyramid) || is_blurred(frame->pyramid)) return;
+  const bool is_legible = has_structure(frame->pyramid) && !is_blurred(frame->pyramid) && !tracker_.is_dazzled(*frame);
+  if (!pose_finder_ || !is_legible) return;
   const StageTimer timer(times_, "relocalize");
   const std::optional<FoundPose> found = pose_finder_->find(window_, *frame);
   if (!found) return;

@@ -22,12 +22,16 @@ class PassKeyframes {
   }
 
   /// Where a frame that was a keyframe before has become one again, the new one counts: frames were tracked with that.
+  /// Both may have been in the window at once: that they lie at the same place is no constraint.
   void add(std::vector<FinishedKeyframe> finished) {
     for (FinishedKeyframe& keyframe : finished) {
       const bool is_given = given_.contains(keyframe.frame);
       const auto [it, is_first] = by_id_.try_emplace(keyframe.update.frame_id);
       if (!is_first && is_given) continue;
       pack(frames_, keyframe);
+      std::erase_if(keyframe.update.constraints, [&](const KeyframeConstraint& constraint) {
+        return constraint.keyframe_id == keyframe.update.frame_id;
+      });
       it->second = {std::move(keyframe), is_given, false};
     }
   }

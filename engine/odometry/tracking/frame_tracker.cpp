@@ -23,8 +23,21 @@ constexpr double kLargestCorrection = 8;
 /// comes into view changes it by less.
 constexpr double kSuddenLight = 0.3;
 
-/// Mean intensity for an exposure of 1 ms.
-double intensity_of(const PreparedFrame& frame) { return mean_intensity(frame.pyramid) / frame.exposure_ms; }
+/// Share of the pixels that were valid in the last tracked frame which have to be so in the next.
+constexpr double kLeastValid = 0.7;
+
+/// As if the exposure had been 1 ms.
+LightOfImage exposed_light(const PreparedFrame& frame) {
+  LightOfImage light = light_of(frame.pyramid);
+  light.mean_intensity /= frame.exposure_ms;
+  return light;
+}
+
+/// Logarithm of the ratio of the intensities; 0 if there is none, or if it is no more than what comes into view makes.
+double sudden_change(const LightOfImage& before, const LightOfImage& after) {
+  const double change = std::log(after.mean_intensity / before.mean_intensity);
+  return std::isfinite(change) && std::abs(change) >= kSuddenLight ? change : 0;
+}
 
 /// Zero if the times say nothing.
 SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
@@ -39,7 +52,7 @@ void FrameTracker::start(const std::shared_ptr<const PreparedFrame>& frame, cons
   velocity_ = velocity_of(T_frame_first, seconds);
   last_frame_ = frame;
   last_time_ = frame->timestamp;
-  last_intensity_ = intensity_of(*frame);
+  last_light_ = exposed_light(*frame);
   last_rmse_.clear();
 }
 
@@ -66,7 +79,7 @@ void FrameTracker::turn_back(const FrameTracker& from, const Window& window) {
   last_time_ = from.last_time_;
   velocity_ = from.velocity_;
   last_brightness_ = from.last_brightness_;
-  last_intensity_ = from.last_intensity_;
+  last_light_ = from.last_light_;
   last_rmse_ = from.last_rmse_;
 }
 
@@ -74,6 +87,10 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
   TrackedFrame tracked;
   if (!has_structure(frame->pyramid)) {
     tracked.reason = "nothing is to be seen in the image";
+    return tracked;
+  }
+  if (is_dazzled(*frame)) {
+    tracked.reason = "most of the image is overexposed all of a sudden";
     return tracked;
   }
   tracked.alignment = align(*frame);
@@ -131,7 +148,7 @@ void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, c
   last_frame_ = frame;
   last_time_ = frame->timestamp;
   last_brightness_ = result.brightness;
-  last_intensity_ = intensity_of(*frame);
+  last_light_ = exposed_light(*frame);
 }
 
 void FrameTracker::lose() {
@@ -149,10 +166,13 @@ SE3d FrameTracker::expected_motion(double time) const {
 }
 
 ExpectedBrightness FrameTracker::expected_brightness(const PreparedFrame& frame) const {
-  const double change = std::log(intensity_of(frame) / last_intensity_);
-  if (!std::isfinite(change) || std::abs(change) < kSuddenLight)
-    return {last_brightness_, priors_.of(frame, last_brightness_.a)};
+  const double change = sudden_change(last_light_, exposed_light(frame));
+  if (change == 0) return {last_brightness_, priors_.of(frame, last_brightness_.a)};
   return {{last_brightness_.a + change, last_brightness_.b}, priors_.of_sudden_light()};
+}
+
+bool FrameTracker::is_dazzled(const PreparedFrame& frame) const {
+  return light_of(frame.pyramid).valid_share < kLeastValid * last_light_.valid_share;
 }
 
 AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "image/frame.h"
+#include "image/image_structure.h"
 #include "ldso/records.h"
 #include "ldso/settings.h"
 #include "odometry/state/brightness_priors.h"
@@ -63,6 +64,10 @@ class FrameTracker {
   /// It is shown so: the last tracked frame was there until now. Says nothing of how the camera moves.
   void repeat(const PreparedFrame& frame) { last_time_ = frame.timestamp; }
 
+  /// Whether so much more of the image is overexposed than in the last tracked one that what is left is no measure of
+  /// where the camera is.
+  bool is_dazzled(const PreparedFrame& frame) const;
+
   /// A frame could not be tracked: what was known of the motion no longer holds.
   void lose();
 
@@ -117,7 +122,7 @@ class FrameTracker {
   double last_time_ = 0;                             ///< When it was shown for the last time [s].
   SE3d::Tangent velocity_ = SE3d::Tangent::Zero();
   Brightness last_brightness_;
-  double last_intensity_ = 0;      ///< Mean of the last tracked frame's image, for its exposure; 0: unknown.
+  LightOfImage last_light_;        ///< Of the last tracked frame, its intensity for an exposure of 1 ms.
   std::vector<double> last_rmse_;  ///< Of each level; empty: nothing to compare with.
   bool is_lost_ = false;           ///< The last frame could not be tracked.
   double first_rmse_ = 0;          ///< Of the first frame aligned with the newest keyframe; 0: none yet.
