@@ -80,5 +80,18 @@ TEST(ImageStructure, ContrastDoesNotMakeItSharp) {
   EXPECT_FALSE(is_blurred(build_pyramid(dim.view())));
 }
 
+TEST(ImageStructure, TheLightIsThatOfTheValidPixels) {
+  ImagePyramid pyramid;
+  Image<Texel>& level = pyramid.levels.emplace_back(40, 20);
+  for (int y = 0; y < level.height(); ++y) {
+    for (int x = 0; x < level.width(); ++x) level(x, y) = {x < 10 ? 255.0F : 60.0F, 0, 0, x < 10 ? 0.0F : 1.0F};
+  }
+  EXPECT_DOUBLE_EQ(light_of(pyramid).mean_intensity, 60);
+  EXPECT_DOUBLE_EQ(light_of(pyramid).valid_share, 0.75);
+  for (std::size_t i = 0; i < level.size(); ++i) level.data()[i].valid = 0;
+  EXPECT_EQ(light_of(pyramid).mean_intensity, 0);
+  EXPECT_EQ(light_of(pyramid).valid_share, 0);
+}
+
 }  // namespace
 }  // namespace ldso

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "odometry/test_synthetic_scene.h"
@@ -102,6 +104,49 @@ TEST_F(FrameTrackerTest, ARepeatedImageIsNoStandstill) {
   ASSERT_TRUE(tracker_.is_repeated(*twice));
   tracker_.repeat(*twice);
   EXPECT_EQ(tracker_.expected_motion(0.7).matrix(), step.matrix());
+}
+
+/// A frame with so many times the light, of which what is above `overexposed` is invalid.
+std::shared_ptr<PreparedFrame> lit(const PreparedFrame& frame, float factor, float overexposed) {
+  auto changed = std::make_shared<PreparedFrame>(frame);
+  for (Image<Texel>& level : changed->pyramid.levels) {
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      Texel& texel = level.data()[i];
+      const Texel bright{factor * texel.intensity, factor * texel.dx, factor * texel.dy, texel.valid};
+      texel = bright.intensity < overexposed ? bright : Texel{255, 0, 0, 0};
+    }
+  }
+  return changed;
+}
+
+TEST_F(FrameTrackerTest, ASuddenLightIsFollowed) {
+  ASSERT_EQ(tracker_.track(frames_[5], newest()).reason, "");
+  for (int i = 6; i < 9; ++i) {
+    const TrackedFrame tracked = tracker_.track(lit(*frames_[static_cast<std::size_t>(i)], 0.125F, 255), newest());
+    ASSERT_EQ(tracked.reason, "") << i;
+    EXPECT_NEAR(tracked.alignment.brightness.a, std::log(0.125), 0.1) << i;
+    const SE3d truth = test::path_pose(kStep * i) * newest().state.T_c_w().inverse();
+    EXPECT_LT(distance(tracked.alignment.T_new_ref, truth), 1e-2) << i;
+  }
+}
+
+TEST_F(FrameTrackerTest, AnImageThatIsSuddenlyOverexposedIsNotTracked) {
+  ASSERT_EQ(tracker_.track(frames_[5], newest()).reason, "");
+  const auto dazzled = lit(*frames_[6], 1, static_cast<float>(light_of(frames_[6]->pyramid).mean_intensity));
+  EXPECT_TRUE(tracker_.is_dazzled(*dazzled));
+  EXPECT_NE(tracker_.track(dazzled, newest()).reason.find("overexposed"), std::string::npos);
+  EXPECT_EQ(tracker_.track(frames_[7], newest()).reason, "");
+}
+
+TEST_F(FrameTrackerTest, AFrameIsTrackedFromWhereItWasFound) {
+  ASSERT_EQ(tracker_.track(frames_[5], newest()).reason, "");
+  tracker_.lose();
+  const SE3d truth = test::path_pose(kStep * 9) * newest().state.T_c_w().inverse();
+  const SE3d near = SE3d::exp((SE3d::Tangent() << 0.01, -0.01, 0, 0.002, 0, 0.003).finished()) * truth;
+  const TrackedFrame tracked = tracker_.track_from({near, false}, frames_[9], newest());
+  ASSERT_EQ(tracked.reason, "");
+  EXPECT_LT(distance(tracked.alignment.T_new_ref, truth), 2e-3);
+  EXPECT_EQ(tracker_.expected_motion(1.0).matrix(), SE3d().matrix()) << "nobody knows how it came here";
 }
 
 TEST_F(FrameTrackerTest, WhatShowsNothingOfTheMapIsNotTracked) {
