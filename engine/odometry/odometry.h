@@ -39,7 +39,7 @@ class Odometry {
   Odometry(const PinholeIntrinsics& camera, double readout_s, bool calibrated, const Settings& settings,
            ThreadPool& pool);
 
-  /// Who is asked where the camera may be when it is lost; nobody else is in the beginning.
+  /// Sets who is asked where the camera may be when it is lost; until then nobody is.
   void ask(std::shared_ptr<PoseFinder> finder) { pose_finder_ = std::move(finder); }
 
   OdometryOutput process(const std::shared_ptr<const PreparedFrame>& frame);

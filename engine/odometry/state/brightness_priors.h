@@ -32,7 +32,7 @@ class BrightnessPriors {
   BrightnessPrior of_first_frames() const { return calibrated_ ? known_ : BrightnessPrior{}; }
 
  private:
-  /// Of frames whose exposure is known it is below 0.05.
+  /// No frame of the undisturbed rendered rooms, corridors and streets with known exposures reaches it.
   static constexpr double kMostUntold = 0.25;
 
   BrightnessPrior known_, unknown_;

@@ -19,8 +19,9 @@ constexpr std::size_t kTriedTurns = 12;
 
 /// An alignment that moves further from where the frame was found has found something else [px].
 constexpr double kLargestCorrection = 8;
-/// Change of the mean intensity from one image to the next from which on it is taken for one of the light [log]: what
-/// comes into view changes it by less.
+/// Change of the mean intensity from one image to the next from which on it is taken for one of the light [log]. In
+/// none of the kitchen, a room with a window, a rendered room, corridor and street does what comes into view change it
+/// so.
 constexpr double kSuddenLight = 0.3;
 
 /// Share of the pixels that were valid in the last tracked frame which have to be so in the next.
@@ -101,9 +102,7 @@ TrackedFrame FrameTracker::track(const std::shared_ptr<const PreparedFrame>& fra
   }
   tracked.reason = objection(*frame, tracked.alignment, wanted_agreement());
   if (!tracked.reason.empty()) return tracked;
-  remember(frame, tracked.alignment, newest);
-  tracked.motion = aligner_.motion(*frame, tracked.alignment);
-  tracked.motion.first_rmse = first_rmse_;
+  accept(frame, newest, tracked);
   return tracked;
 }
 
@@ -116,14 +115,18 @@ TrackedFrame FrameTracker::track_from(const FoundPose& found, const std::shared_
   tracked.reason = objection(*frame, tracked.alignment, is_proven ? 0 : settings_.resume_agreement);
   if (!tracked.reason.empty()) return tracked;
   const SE3d::Tangent velocity = velocity_, keyframe_velocity = newest.velocity;
-  remember(frame, tracked.alignment, newest);
+  accept(frame, newest, tracked);
   // The camera did not move here from where it was last seen in the time since.
   T_last_previous_ = SE3d();
   velocity_ = velocity;
   newest.velocity = keyframe_velocity;
+  return tracked;
+}
+
+void FrameTracker::accept(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest, TrackedFrame& tracked) {
+  remember(frame, tracked.alignment, newest);
   tracked.motion = aligner_.motion(*frame, tracked.alignment);
   tracked.motion.first_rmse = first_rmse_;
-  return tracked;
 }
 
 std::string FrameTracker::objection(const PreparedFrame& frame, const AlignmentResult& result,
@@ -177,16 +180,18 @@ bool FrameTracker::is_dazzled(const PreparedFrame& frame) const {
 
 AlignmentResult FrameTracker::align(const PreparedFrame& frame) const {
   const PreviousFrame previous = previous_frame(frame.timestamp, last_time_, T_last_ref_);
+  const ExpectedBrightness expected = expected_brightness(frame);
   const std::vector<SE3d> motions = motion_hypotheses(T_last_ref_, expected_motion(frame.timestamp));
   AlignmentResult best;
-  if (improve(motions, frame, previous, best)) return best;
-  improve(most_promising(turned_hypotheses(motions.front()), frame, previous), frame, previous, best);
+  if (improve(motions, frame, expected, previous, best)) return best;
+  improve(most_promising(turned_hypotheses(motions.front()), frame, expected, previous), frame, expected, previous,
+          best);
   return best;
 }
 
-bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
+bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                           const ExpectedBrightness& expected, const PreviousFrame& previous,
                            AlignmentResult& best) const {
-  const ExpectedBrightness expected = expected_brightness(frame);
   for (const SE3d& pose : starts) {
     // Only what beats the best so far is of interest.
     const std::vector<double>& limits = best.good ? best.level_rmse : last_rmse_;
@@ -200,8 +205,8 @@ bool FrameTracker::improve(const std::vector<SE3d>& starts, const PreparedFrame&
 }
 
 std::vector<SE3d> FrameTracker::most_promising(const std::vector<SE3d>& starts, const PreparedFrame& frame,
+                                               const ExpectedBrightness& expected,
                                                const PreviousFrame& previous) const {
-  const ExpectedBrightness expected = expected_brightness(frame);
   std::vector<std::pair<double, std::size_t>> energies;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     energies.emplace_back(aligner_.start_energy(frame, starts[i], expected.start, expected.prior, previous), i);

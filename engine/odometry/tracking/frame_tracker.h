@@ -96,11 +96,11 @@ class FrameTracker {
   /// exposure that nobody told).
   ExpectedBrightness expected_brightness(const PreparedFrame& frame) const;
   /// Aligns the frame from each of the poses; keeps what beats `best`. True as soon as that is as good as ever.
-  bool improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const PreviousFrame& previous,
-               AlignmentResult& best) const;
+  bool improve(const std::vector<SE3d>& starts, const PreparedFrame& frame, const ExpectedBrightness& expected,
+               const PreviousFrame& previous, AlignmentResult& best) const;
   /// Those with the least energy on the coarsest level, the best first.
   std::vector<SE3d> most_promising(const std::vector<SE3d>& starts, const PreparedFrame& frame,
-                                   const PreviousFrame& previous) const;
+                                   const ExpectedBrightness& expected, const PreviousFrame& previous) const;
   /// Near a pose that is wrong there is always something that looks alike: after a loss more has to agree.
   double wanted_agreement() const { return is_lost_ ? settings_.resume_agreement : settings_.least_agreement; }
   /// The best of the alignments that begin at `starts`, whether or not the image shows what the map does.
@@ -108,6 +108,8 @@ class FrameTracker {
                             const ExpectedBrightness& expected, const PreviousFrame& previous) const;
   /// Why the alignment of a frame is none; empty if it is one.
   std::string objection(const PreparedFrame& frame, const AlignmentResult& result, double wanted_agreement) const;
+  /// Takes over an alignment that there is no objection to.
+  void accept(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest, TrackedFrame& tracked);
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);
 
   TrackingSettings settings_;

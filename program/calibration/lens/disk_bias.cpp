@@ -1,9 +1,10 @@
 #include "calibration/lens/disk_bias.h"
-#include "util/median.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "util/median.h"
 
 namespace ldso {
 namespace {
