@@ -120,7 +120,7 @@ bool Odometry::finds_start(const std::shared_ptr<const PreparedFrame>& frame) {
     status = Initializer::Status::kRestarted;
   }
   if (status == Initializer::Status::kRestarted) waiting_.clear();
-  waiting_.add(frame);
+  waiting_.add(*frame);
   return false;
 }
 

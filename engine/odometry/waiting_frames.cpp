@@ -13,8 +13,8 @@ constexpr std::size_t kMostFrames = 30;
 
 }  // namespace
 
-void WaitingFrames::add(const std::shared_ptr<const PreparedFrame>& frame) {
-  frames_.push_back(frame);
+void WaitingFrames::add(const PreparedFrame& frame) {
+  frames_.emplace_back(frame);
   if (frames_.size() > kMostFrames) frames_.pop_front();
 }
 
@@ -30,7 +30,7 @@ std::vector<FrameRecord> WaitingFrames::track(const Window& window, const FrameT
   std::shared_ptr<const PreparedFrame> next = last.frame;
   double next_time = next->timestamp;
   for (; !frames_.empty(); frames_.pop_back()) {
-    const std::shared_ptr<const PreparedFrame>& frame = frames_.back();
+    const auto frame = std::make_shared<const PreparedFrame>(frames_.back().unpack());
     FrameRecord record = new_record(*frame);
     if (frame->id == first.id()) {
       record_keyframe(record);

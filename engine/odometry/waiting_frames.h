@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "image/compact_frame.h"
 #include "image/frame.h"
 #include "ldso/records.h"
 #include "odometry/state/window.h"
@@ -16,7 +17,7 @@ namespace ldso {
 class WaitingFrames {
  public:
   /// The oldest is forgotten if there are many.
-  void add(const std::shared_ptr<const PreparedFrame>& frame);
+  void add(const PreparedFrame& frame);
   void clear() { frames_.clear(); }
 
   /// Aligns them with the newest keyframe of the window, which is the tracker's reference, newest first, and forgets
@@ -25,7 +26,7 @@ class WaitingFrames {
   std::vector<FrameRecord> track(const Window& window, const FrameTracker& tracker, double least_in_view);
 
  private:
-  std::deque<std::shared_ptr<const PreparedFrame>> frames_;
+  std::deque<CompactFrame> frames_;
 };
 
 }  // namespace ldso

@@ -90,7 +90,7 @@ const FrameRecord& Pipeline::process(const std::shared_ptr<const PreparedFrame>&
   const double frame_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   times_.add("odometry", frame_ms);
   tell(output, frame, frame_ms);
-  const bool can_choose = second_ && second_->add(frame, output.frame);
+  const bool can_choose = second_ && second_->add(frame, raw, output.frame);
   RevisedStart revised = revision_.add(*odometry_, raw, output);
   for (const FrameRecord& late : output.late) replace_record(result_.frames, late);
   apply(std::move(revised));

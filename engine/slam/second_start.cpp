@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <unordered_map>
 #include <utility>
 
+#include "slam/packed_keyframe.h"
 #include "slam/replace_record.h"
 #include "util/median.h"
 
@@ -63,17 +63,22 @@ void SecondStart::process(const Item& item) {
   }
   map_.records.push_back(output.frame);
   for (const FrameRecord& late : output.late) replace_record(map_.records, late);
-  std::move(output.finished.begin(), output.finished.end(), std::back_inserter(map_.keyframes));
+  if (output.frame.is_keyframe && item.raw) images_.push_back(std::make_shared<const PackedFrame>(*item.raw));
+  for (FinishedKeyframe& keyframe : output.finished) {
+    pack(images_, keyframe);
+    map_.keyframes.push_back(std::move(keyframe));
+  }
 }
 
-bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const FrameRecord& first) {
+bool SecondStart::add(const std::shared_ptr<const PreparedFrame>& frame, const std::shared_ptr<const RawFrame>& raw,
+                      const FrameRecord& first) {
   const bool is_tracked = first.state == TrackingState::kTracked;
   const bool begins = is_tracked && first_start_ < 0;
   if (begins) first_start_ = first.frame_id;
   ++(first_start_ < 0 ? waited_ : age_);
   // A loss has its own remedies; and who begins with the same frame comes to the same map.
   is_over_ = is_over_ || (first_start_ >= 0 && (!is_tracked || start_ == first_start_));
-  if (!is_over_) queue_.push({frame, begins, waited_ > kPromptStart});
+  if (!is_over_) queue_.push({frame, raw, begins, waited_ > kPromptStart});
   return is_over_ || age_ >= settings_.second_frames;
 }
 

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "image/packed_frame.h"
 #include "ldso/settings.h"
 #include "odometry/odometry.h"
 #include "util/bounded_queue.h"
@@ -23,7 +24,7 @@ namespace ldso {
 struct SecondMap {
   std::unique_ptr<Odometry> odometry;
   std::vector<FrameRecord> records;         ///< Of all frames, as they are known now.
-  std::vector<FinishedKeyframe> keyframes;  ///< That left its window.
+  std::vector<FinishedKeyframe> keyframes;  ///< That left its window, without their pyramids.
   std::int64_t start = -1;                  ///< The frame at which it began.
 };
 
@@ -35,9 +36,10 @@ class SecondStart {
   SecondStart(const SecondStart&) = delete;
   SecondStart& operator=(const SecondStart&) = delete;
 
-  /// A frame, and what the first odometry said of it. Waits while the second one is several frames behind. True once
-  /// all is known that decides: what follows then is finish().
-  bool add(const std::shared_ptr<const PreparedFrame>& frame, const FrameRecord& first);
+  /// A frame, as the camera took it if that is known, and what the first odometry said of it. Waits while the second
+  /// one is several frames behind. True once all is known that decides: what follows then is finish().
+  bool add(const std::shared_ptr<const PreparedFrame>& frame, const std::shared_ptr<const RawFrame>& raw,
+           const FrameRecord& first);
 
   /// The second map, if it is better. `first`: the records of the frames with the first one, as they are known now.
   /// `verdict`: for the log; empty if there is nothing to say.
@@ -46,6 +48,7 @@ class SecondStart {
  private:
   struct Item {
     std::shared_ptr<const PreparedFrame> frame;
+    std::shared_ptr<const RawFrame> raw;
     bool first_begins = false;  ///< The first map begins with this frame.
     bool is_doubtful = false;   ///< It had to be waited for.
   };
@@ -63,7 +66,8 @@ class SecondStart {
   ThreadPool& pool_;
   Settings patient_;  ///< Of the second odometry.
   SecondMap map_;
-  std::atomic<std::int64_t> start_ = -1;  ///< The frame at which the second map began.
+  std::vector<std::shared_ptr<const PackedFrame>> images_;  ///< Of its keyframes.
+  std::atomic<std::int64_t> start_ = -1;                    ///< The frame at which the second map began.
   std::string failure_;
   BoundedQueue<Item> queue_;
   std::jthread thread_;  ///< Declared last: it uses the others and is joined first.

@@ -102,7 +102,7 @@ bool begins_later(const Settings& settings, int& first_start) {
     const auto frame = std::make_shared<const PreparedFrame>(preprocessor.process(raw_frame(i, draw_scene(i))));
     records.push_back(odometry.process(frame).frame);
     if (first_start < 0 && records.back().state == TrackingState::kTracked) first_start = i;
-    if (second.add(frame, records.back())) break;
+    if (second.add(frame, nullptr, records.back())) break;
   }
   std::string verdict;
   const std::optional<SecondMap> map = second.finish(records, verdict);

@@ -24,6 +24,9 @@ constexpr double kLargestCorrection = 8;
 /// so.
 constexpr double kSuddenLight = 0.3;
 
+/// Frames after a keyframe that tell how fast the camera was there.
+constexpr int kRefiningFrames = 2;
+
 /// Share of the pixels that were valid in the last tracked frame which have to be so in the next.
 constexpr double kLeastValid = 0.7;
 
@@ -50,6 +53,7 @@ SE3d::Tangent velocity_of(const SE3d& motion, double seconds) {
 
 void FrameTracker::start(const std::shared_ptr<const PreparedFrame>& frame, const SE3d& T_frame_first, double seconds) {
   is_lost_ = false;
+  steps_.clear();
   velocity_ = velocity_of(T_frame_first, seconds);
   last_frame_ = frame;
   last_time_ = frame->timestamp;
@@ -62,6 +66,7 @@ void FrameTracker::set_reference(const Window& window) {
   T_last_ref_ = SE3d();
   last_brightness_ = window.keyframes.back()->state.brightness();
   first_rmse_ = 0;
+  since_reference_ = 0;
 }
 
 void FrameTracker::assume_even_motion(const Window& window) {
@@ -76,6 +81,7 @@ void FrameTracker::turn_back(const FrameTracker& from, const Window& window) {
   T_last_ref_ = from.T_last_ref_;
   T_last_previous_ = from.T_last_previous_.inverse();
   last_step_s_ = -from.last_step_s_;
+  steps_.clear();
   last_frame_ = from.last_frame_;
   last_time_ = from.last_time_;
   velocity_ = from.velocity_;
@@ -118,6 +124,7 @@ TrackedFrame FrameTracker::track_from(const FoundPose& found, const std::shared_
   accept(frame, newest, tracked);
   // The camera did not move here from where it was last seen in the time since.
   T_last_previous_ = SE3d();
+  steps_.clear();
   velocity_ = velocity;
   newest.velocity = keyframe_velocity;
   return tracked;
@@ -145,16 +152,27 @@ void FrameTracker::remember(const std::shared_ptr<const PreparedFrame>& frame, c
   T_last_previous_ = result.T_new_ref * T_last_ref_.inverse();
   T_last_ref_ = result.T_new_ref;
   last_step_s_ = frame->timestamp - last_time_;
-  velocity_ = velocity_of(T_last_previous_, last_step_s_);
-  // What is known before and after the time of a keyframe tells its velocity better than one of both.
-  if (newest.frame == last_frame_) newest.velocity = 0.5 * (newest.velocity + velocity_);
+  note_velocity(velocity_of(T_last_previous_, last_step_s_), newest);
   last_frame_ = frame;
   last_time_ = frame->timestamp;
   last_brightness_ = result.brightness;
   last_light_ = exposed_light(*frame);
 }
 
+void FrameTracker::note_velocity(const SE3d::Tangent& step, Keyframe& newest) {
+  steps_.add(step, last_step_s_);
+  velocity_ = steps_.before_last(0).value_or(step);
+  ++since_reference_;
+  if (since_reference_ > kRefiningFrames) return;
+  if (const auto better = steps_.before_last(since_reference_)) {
+    newest.velocity = *better;
+  } else if (since_reference_ == 1) {
+    newest.velocity = 0.5 * (newest.velocity + step);
+  }
+}
+
 void FrameTracker::lose() {
+  steps_.clear();
   T_last_previous_ = SE3d();
   last_rmse_.clear();
   is_lost_ = true;

@@ -15,6 +15,7 @@
 #include "odometry/state/window.h"
 #include "odometry/tracking/coarse_tracker.h"
 #include "odometry/tracking/pose_finder.h"
+#include "odometry/tracking/step_velocities.h"
 #include "util/thread_pool.h"
 
 namespace ldso {
@@ -53,7 +54,7 @@ class FrameTracker {
   void turn_back(const FrameTracker& from, const Window& window);
 
   /// Aligns a frame with the newest keyframe of the window, which set_reference() was given, and remembers what it
-  /// found. If the last tracked frame was that keyframe, its velocity takes account of the motion since.
+  /// found. In the two frames after that keyframe its velocity takes account of the motion since.
   TrackedFrame track(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest);
 
   /// The same of a frame that track() gave no pose, from where it was found. Of the motion nothing is known then.
@@ -111,6 +112,9 @@ class FrameTracker {
   /// Takes over an alignment that there is no objection to.
   void accept(const std::shared_ptr<const PreparedFrame>& frame, Keyframe& newest, TrackedFrame& tracked);
   void remember(const std::shared_ptr<const PreparedFrame>& frame, const AlignmentResult& result, Keyframe& newest);
+  /// Of the step to the last frame. What is known before and after the time of a keyframe tells its velocity better
+  /// than what came before it alone.
+  void note_velocity(const SE3d::Tangent& step, Keyframe& newest);
 
   TrackingSettings settings_;
   BrightnessPriors priors_;
@@ -123,6 +127,8 @@ class FrameTracker {
   std::shared_ptr<const PreparedFrame> last_frame_;  ///< The last tracked one that showed a new image.
   double last_time_ = 0;                             ///< When it was shown for the last time [s].
   SE3d::Tangent velocity_ = SE3d::Tangent::Zero();
+  StepVelocities steps_;
+  int since_reference_ = 0;  ///< Frames that were tracked since the last one became the newest keyframe.
   Brightness last_brightness_;
   LightOfImage last_light_;        ///< Of the last tracked frame, its intensity for an exposure of 1 ms.
   std::vector<double> last_rmse_;  ///< Of each level; empty: nothing to compare with.
