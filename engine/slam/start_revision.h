@@ -69,6 +69,8 @@ class StartRevision {
   /// The odometry has left the map that was kept track of.
   RevisedStart change_map(const Odometry& odometry, OdometryOutput& output);
   void collect(const std::shared_ptr<const RawFrame>& raw, const OdometryOutput& output);
+  /// Age at which the map is mature [frames].
+  std::int64_t mature_age() const;
   /// Takes the keyframes out of `output`, and their pyramids out of them.
   void hold(OdometryOutput& output);
   /// Makes all ready for the pass; not if the newest frame is not tracked.
@@ -95,6 +97,8 @@ class StartRevision {
   int restarts_ = 0;          ///< Of the odometry, when the map began.
   std::int64_t frames_ = 0;   ///< Since the map began, or since the pass did.
   std::int64_t turn_ = -1;    ///< Newest keyframe of the window with which the pass began.
+  bool is_slow_ = false;      ///< The camera hardly moved when the map was young.
+  bool is_mature_ = false;    ///< The map was when the pass turned back: the images had not ended before.
   bool is_accepted_ = false;  ///< The pass stands.
   bool lacks_first_ = false;  ///< First frames have lost the poses that they had in a map that was replaced.
   int segment_ = 0;           ///< The map that it passes.

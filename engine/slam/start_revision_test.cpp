@@ -41,9 +41,10 @@ class SceneRun {
           if (level == LogLevel::kWarning) warnings += line + "\n";
         }) {}
 
-  void show(int from, int to) {
+  /// Frames [from, to) of a camera that takes so many steps of the scene from one to the next.
+  void show(int from, int to, int steps = 2) {
     for (int i = from; i < to; ++i) {
-      const auto raw = std::make_shared<RawFrame>(raw_frame(i, draw_scene(i)));
+      const auto raw = std::make_shared<RawFrame>(raw_frame(i, draw_scene(steps * i)));
       pipeline_.process(std::make_shared<const PreparedFrame>(pipeline_.preprocessor().process(*raw)), to_revise_(raw));
     }
   }
@@ -164,6 +165,20 @@ TEST(StartRevision, AMapThatDoesNotLeadBackIsDoubtful) {
   sound.show(0, kFrames);
   sound.pipeline().finish();
   EXPECT_EQ(sound.warnings, "");
+}
+
+TEST(StartRevision, AMapOfASlowStartIsMatureLaterAndMayFitAsWell) {
+  Settings settings = young();
+  settings.revision.frames = 20;
+  settings.revision.most_residual = 0.5;
+  SceneRun slow(settings), brisk(settings);
+  slow.show(0, kFrames, 1);
+  slow.pipeline().finish();
+  // It turns back when it is 54 frames old: the images before it began are counted as well.
+  EXPECT_NE(slow.log.find("the mature map gives the first 5"), std::string::npos) << slow.log;
+  brisk.show(0, kFrames, 4);
+  brisk.pipeline().finish();
+  EXPECT_NE(brisk.log.find("the first frames keep their poses: going back"), std::string::npos) << brisk.log;
 }
 
 TEST(StartRevision, APostponedPassIsMadeInTheEnd) {
