@@ -17,6 +17,8 @@ namespace {
 constexpr double kFoundSignificance = 3;
 /// Standard deviation of the focal length, as a share of it, from which on it is unknown.
 constexpr double kLeastKnownFocal = 0.01;
+/// Share of the frames that a camera has to give a pose to: with a wrong one the map begins late and is lost again.
+constexpr double kLeastPosed = 0.5;
 /// A given calibration that was refused to be mended, though it is contradicted by so many times what is needed or the
 /// windows contradict each other, may be another camera's.
 constexpr double kOtherSignificance = 2;
@@ -42,6 +44,14 @@ SelfCalibrationSettings search_settings(const Calibration& given, SelfCalibratio
 CalibrationSearch new_search(Calibration begin, const SelfCalibrationSettings& settings) {
   const SelfCalibrationSettings own = search_settings(begin, settings);
   return {std::move(begin), own};
+}
+
+/// Why the frames speak against the camera that they were run with; empty if they do not.
+std::string objection_of(const std::vector<FrameRecord>& frames) {
+  const auto posed = std::ranges::count(frames, TrackingState::kTracked, &FrameRecord::state);
+  if (static_cast<double>(posed) >= kLeastPosed * static_cast<double>(frames.size())) return {};
+  return format_text("only %d of %d frames have a pose with the one that fits best", static_cast<int>(posed),
+                     static_cast<int>(frames.size()));
 }
 
 void log_trial(const CalibrationSearch& search, const LogSink& log) {
@@ -105,6 +115,7 @@ void CalibrationCourse::note_found_camera(SequenceRun& run) const {
   const double share = found.stddevs[0] / camera.fx;
   // What the windows of one camera say does not count while another one may be the right one.
   found.doubt = doubt_.empty() ? search_.refusal() : doubt_;
+  if (found.doubt.empty()) found.doubt = objection_of(run.result.frames);
   if (found.doubt.empty() && !(share > 0 && share < kLeastKnownFocal))
     found.doubt = format_text("the motion tells the focal length only to %.1f %%", 100 * share);
   if (!found.doubt.empty()) {

@@ -31,7 +31,7 @@ class CalibrationCourse {
   void begin_anew();
   /// What the course has come to.
   void note(SequenceRun& run) const;
-  /// What became of a camera that nobody had calibrated; warns if it is in doubt.
+  /// What became of a camera that nobody had calibrated, when `run` has its result; warns if it is in doubt.
   void note_found_camera(SequenceRun& run) const;
 
  private:

@@ -36,6 +36,8 @@ constexpr double kSameDistortion = 0.01;
 /// Another focal length, by this share, with residuals that are larger by less than that one leaves a doubt.
 constexpr double kOtherFocal = 0.06;
 constexpr double kSameResidual = 0.015;
+/// Or by less than so many standard deviations of that difference, from how it varies along the sequence.
+constexpr double kUncertain = 2;
 /// A calibration that somebody gave is only left for another camera if its residuals are larger by this (logarithm):
 /// distortion that was left out makes them larger by 70-90 %, while weak images can be explained better by up to 17 %
 /// with a wrong lens.
@@ -95,6 +97,12 @@ Calibration next_camera(const std::vector<CameraTrial>& trials, const CameraTria
 bool is_settled(const CameraTrial& trial) {
   const double bend = trial.findings.better.camera.distortion[0] - trial.camera.camera.distortion[0];
   return trial.step() == 0 || (std::abs(trial.step()) < kNearEnough && std::abs(bend) < kSameDistortion);
+}
+
+/// By what share the residuals of `other` have to be larger than those of `best` to be so for certain.
+double certain_change(const CameraTrial& best, const CameraTrial& other) {
+  const FitChange change = compare_fits(best.findings.fits, other.findings.fits);
+  return std::max(kSameResidual, change.is_known ? kUncertain * change.stddev : 0);
 }
 
 class Finder {
@@ -174,7 +182,7 @@ class Finder {
     for (const CameraTrial& other : trials_) {
       const bool is_other = std::abs(other.log_focal() - best.log_focal()) > kOtherFocal;
       // What its own windows want to change is no alternative, but on its way to one.
-      if (!is_other || !is_settled(other) || residual_change(best, other) > kSameResidual) continue;
+      if (!is_other || !is_settled(other) || residual_change(best, other) > certain_change(best, other)) continue;
       return format_text("focal lengths of %.0f and of %.0f px explain the images equally well", best.camera.camera.fx,
                          other.camera.camera.fx);
     }

@@ -131,10 +131,10 @@ SequenceRun run_sequence(const FrameSource& source, const Settings& settings, co
       continue;
     }
     course.note(run);
-    course.note_found_camera(run);
     run.stopped = end == PassEnd::kStopped;
     run.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     run.result = pass.finish();
+    course.note_found_camera(run);
     return run;
   }
 }
