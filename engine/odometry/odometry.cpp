@@ -221,8 +221,8 @@ void Odometry::try_new_start(const std::shared_ptr<const PreparedFrame>& frame, 
     initializer_ = make_initializer();
     waiting_.clear();
   }
-  // What is smeared agrees with itself, and tells no motion.
-  if (is_blurred(frame->pyramid) || !finds_start(frame)) return;
+  // What is smeared agrees with itself, and tells no motion; and dazzling light goes out again.
+  if (is_blurred(frame->pyramid) || tracker_.is_dazzled(*frame) || !finds_start(frame)) return;
   leave_map(last_pose(), output);
   start_map(frame, output);
 }
