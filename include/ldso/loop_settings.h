@@ -329,7 +329,7 @@ struct LoopConfirmationSettings {
 struct PoseGraphSettings {
   int spacing = 60;
   // The larger the graph, the longer it takes and the less a loop more changes.
-  int spacing_divisor = 20;
+  int spacing_divisor = 6;
   double chi2 = 50;
   int max_iterations = 100;
   double tolerance = 1e-4;
