@@ -2,6 +2,7 @@
 
 // A prepared frame that waits, in a fifth of its memory: without what can be computed again from it.
 
+#include <cstdint>
 #include <vector>
 
 #include "image/frame.h"

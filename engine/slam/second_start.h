@@ -24,7 +24,7 @@ namespace ldso {
 struct SecondMap {
   std::unique_ptr<Odometry> odometry;
   std::vector<FrameRecord> records;         ///< Of all frames, as they are known now.
-  std::vector<FinishedKeyframe> keyframes;  ///< That left its window, without their pyramids.
+  std::vector<FinishedKeyframe> keyframes;  ///< That left its window, packed where that can be.
   std::int64_t start = -1;                  ///< The frame at which it began.
 };
 
